@@ -1,0 +1,124 @@
+#pragma once
+// The world: bodies, and the step that moves them.
+//
+// A world is a value. Copying one takes a complete snapshot: the copy, stepped, goes through exactly
+// the states that the original goes through, to the bit, and ids of the one are valid in the other.
+//
+// Every call checks what it is given, in every build. A refused call changes nothing, returns an Error,
+// and tells the error handler if there is one. Questions about an id that is gone answer with zeros and
+// tell the error handler. Not to be called from two threads at once; distinct worlds share nothing.
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "cairn/body.h"
+#include "cairn/ids.h"
+#include "cairn/report.h"
+#include "cairn/result.h"
+#include "cairn/settings.h"
+#include "cairn/shape.h"
+
+namespace cairn {
+
+struct WorldState;
+
+class World {
+public:
+    World();
+    /// A world with these settings, or why they make none.
+    static Result<World> create(const WorldSettings& settings);
+    World(const World& other);
+    World(World&& other) noexcept;
+    World& operator=(const World& other);
+    World& operator=(World&& other) noexcept;
+    ~World();
+
+    /// Called with every error, before the call that met it returns. Copied with the world.
+    void set_error_handler(std::function<void(const Error&)> handler);
+
+    const WorldSettings& settings() const;
+    Status set_settings(const WorldSettings& settings);
+
+    // Bodies and shapes.
+
+    Result<BodyId> create_body(const BodyDef& def);
+    Status destroy_body(BodyId body);
+    /// Adds a shape; mass properties follow the shapes unless they were given.
+    Result<ShapeId> create_shape(BodyId body, const ShapeDef& def);
+    Status destroy_shape(ShapeId shape);
+
+    bool is_valid(BodyId body) const;
+    bool is_valid(ShapeId shape) const;
+    std::size_t body_count() const;
+    /// Every body, in the order of their slots: the order of creation where none was destroyed.
+    std::vector<BodyId> bodies() const;
+    std::vector<ShapeId> shapes(BodyId body) const;
+    ShapeDef shape(ShapeId shape) const;
+    BodyId body_of(ShapeId shape) const;
+
+    // State.
+
+    BodyState state(BodyId body) const;
+    /// Of the body frame's origin.
+    Position position(BodyId body) const;
+    Quat rotation(BodyId body) const;
+    Vec3 linear_velocity(BodyId body) const;
+    Vec3 angular_velocity(BodyId body) const;
+    /// Zero mass and inertia for static and kinematic bodies; the center of mass is true for all.
+    MassProperties mass_properties(BodyId body) const;
+
+    /// Puts the body frame's origin there at once; velocities stay. Thaws a frozen body.
+    Status set_pose(BodyId body, const Position& position, const Quat& rotation);
+    Status set_linear_velocity(BodyId body, const Vec3& velocity);
+    Status set_angular_velocity(BodyId body, const Vec3& velocity);
+    /// Gives a kinematic body the velocities that take it there in dt seconds.
+    Status move_kinematic(BodyId body, const Position& position, const Quat& rotation, double dt);
+    Status set_kind(BodyId body, BodyKind kind);
+    Status set_mass_properties(BodyId body, const MassProperties& mass_properties);
+    Status set_gravity_scale(BodyId body, float scale);
+    Status set_damping(BodyId body, float linear, float angular);
+    Status set_gyroscopic(BodyId body, bool on);
+    Status set_locked_axes(BodyId body, const LockedAxes& lock);
+    Status set_collision_filter(BodyId body, const CollisionFilter& filter);
+    Status set_material(ShapeId shape, const Material& material);
+    /// The force and torque that act in every step, as in BodyDef.
+    Status set_constant_force(BodyId body, const Vec3& force, const Vec3& torque);
+
+    /// For the next step alone; calls add up. N at the center of mass, world frame.
+    Status apply_force(BodyId body, const Vec3& force);
+    Status apply_force_at(BodyId body, const Vec3& force, const Position& point);
+    Status apply_torque(BodyId body, const Vec3& torque);
+    /// At once. N s at the center of mass, world frame.
+    Status apply_impulse(BodyId body, const Vec3& impulse);
+    Status apply_impulse_at(BodyId body, const Vec3& impulse, const Position& point);
+    Status apply_angular_impulse(BodyId body, const Vec3& impulse);
+
+    // Stepping.
+
+    /// Moves the world on by dt seconds, 0 < dt.
+    Status step(double dt);
+
+    // What the step did.
+
+    const StepReport& last_step() const;
+    /// Contacts that began and ended in the last step, in the order of their shapes.
+    std::span<const ContactEvent> contact_events() const;
+    /// Every body that was ever frozen, in order of time.
+    std::span<const NonFinite> non_finite() const;
+    /// The contacts as they are at the present poses, measured anew, with the last step's impulses.
+    std::vector<ContactReport> contacts() const;
+    static Penetration penetration(std::span<const ContactReport> contacts);
+    Energy energy() const;
+    Momentum momentum() const;
+    /// FNV-1a, 64 bits, over the bodies in the order of bodies(), little-endian: position 3 x binary64,
+    /// rotation, linear and angular velocity binary32, asleep one byte.
+    std::uint64_t state_hash() const;
+
+private:
+    std::unique_ptr<WorldState> state_;
+};
+
+}  // namespace cairn
