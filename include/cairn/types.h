@@ -36,8 +36,8 @@ struct Quat {
 
 /// A rigid placement within a parent frame: rotate, then translate.
 struct Pose {
-    Vec3 position;
-    Quat rotation;
+    Vec3 position = {};
+    Quat rotation = {};
     friend constexpr bool operator==(const Pose&, const Pose&) = default;
 };
 
