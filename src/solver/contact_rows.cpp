@@ -1,0 +1,125 @@
+// Preparing and renewing contact rows; see contact_rows.h.
+
+#include "solver/contact_rows.h"
+
+namespace cairn {
+
+namespace {
+
+// 1 / the largest eigenvalue of the 2x2 form q across n; 0 where nothing gives.
+template <class Form>
+float softest_across(Vec3 n, Form&& q) {
+    const Vec3 t = any_perpendicular(n);
+    const Vec3 u = cross(n, t);
+    const float tt = q(t, t);
+    const float uu = q(u, u);
+    const float tu = q(t, u);
+    const float half_difference = 0.5f * (tt - uu);
+    const float largest =
+        0.5f * (tt + uu) + square_root(half_difference * half_difference + tu * tu);
+    return largest > 0 ? 1.0f / largest : 0;
+}
+
+void refresh_point(PointRow& p, Vec3 n, const BodyMotion& a, const BodyMotion& b, const Response& response_a,
+                   const Response& response_b) {
+    const Vec3 arm_a = find_arm(p.arm_a, a.rotation);
+    const Vec3 arm_b = find_arm(p.arm_b, b.rotation);
+    // The two material points were one place when the step began; the common point is halfway now.
+    const Vec3 apart = (b.displacement + (arm_b - p.start_b)) - (a.displacement + (arm_a - p.start_a));
+    p.r_a = arm_a + 0.5f * apart;
+    p.r_b = arm_b - 0.5f * apart;
+    p.separation = p.start_separation + dot(n, apart);
+
+    const float k = resistance(response_a, p.r_a, response_b, p.r_b, n);
+    p.normal_mass = k > 0 ? 1.0f / k : 0;
+    const Vec3 inverse_mass = response_a.inverse_mass + response_b.inverse_mass;
+    p.tangent_mass = softest_across(n, [&](Vec3 d, Vec3 e) {
+        return dot(d, multiply(inverse_mass, e)) +
+               dot(cross(p.r_a, d), response_a.inverse_inertia * cross(p.r_a, e)) +
+               dot(cross(p.r_b, d), response_b.inverse_inertia * cross(p.r_b, e));
+    });
+}
+
+}  // namespace
+
+void prepare_rows(const StepProblem& problem, std::vector<ContactRows>& rows) {
+    rows.clear();
+    for (const std::uint32_t index : problem.active) {
+        const Contact& contact = problem.contacts[index];
+        const BodyMotion& a = problem.motions[contact.body_a];
+        const BodyMotion& b = problem.motions[contact.body_b];
+        ContactRows& row = rows.emplace_back();
+        row.contact = index;
+        row.body_a = contact.body_a;
+        row.body_b = contact.body_b;
+        row.normal = contact.normal;
+        row.surface_velocity = without_normal(contact.surface_velocity, contact.normal);
+        row.friction = contact.friction;
+        row.restitution = contact.restitution;
+        row.rolling_friction = contact.rolling_friction;
+        row.spinning_friction = contact.spinning_friction;
+        row.size = contact.size;
+        row.point_count = contact.point_count;
+        for (int i = 0; i < contact.point_count; ++i) {
+            const ContactPoint& from = contact.points[std::size_t(i)];
+            PointRow& to = row.points[std::size_t(i)];
+            to.arm_a = from.arm_a;
+            to.arm_b = from.arm_b;
+            to.start_a = find_arm(from.arm_a, a.rotation);
+            to.start_b = find_arm(from.arm_b, b.rotation);
+            to.start_separation = from.separation;
+        }
+    }
+}
+
+void find_responses(const StepProblem& problem, std::vector<Response>& responses) {
+    responses.resize(problem.motions.size());
+    for (std::size_t i = 0; i < responses.size(); ++i) {
+        if (problem.inertias[i].inverse_mass == 0) {
+            responses[i] = {};
+        } else {
+            responses[i] = find_response(problem.inertias[i], problem.drives[i], problem.motions[i].rotation);
+        }
+    }
+}
+
+void refresh_rows(const StepProblem& problem, std::span<const Response> responses,
+                  std::span<ContactRows> rows) {
+    for (ContactRows& row : rows) {
+        const BodyMotion& a = problem.motions[row.body_a];
+        const BodyMotion& b = problem.motions[row.body_b];
+        const Response& response_a = responses[row.body_a];
+        const Response& response_b = responses[row.body_b];
+        for (int i = 0; i < row.point_count; ++i) {
+            refresh_point(row.points[std::size_t(i)], row.normal, a, b, response_a, response_b);
+        }
+        if (row.rolling_friction > 0 || row.spinning_friction > 0) {
+            const SymmetricMat3 turning = response_a.inverse_inertia + response_b.inverse_inertia;
+            row.rolling_mass =
+                softest_across(row.normal, [&](Vec3 d, Vec3 e) { return dot(d, turning * e); });
+            const float about = dot(row.normal, turning * row.normal);
+            row.spinning_mass = about > 0 ? 1.0f / about : 0;
+        }
+    }
+}
+
+void share_evenly(const ContactRows& rows, std::array<float, 4>& loads) {
+    if (rows.point_count != 4) return;
+    const Vec3 n = rows.normal;
+    const Vec3 p0 = rows.points[0].r_b, p1 = rows.points[1].r_b;
+    const Vec3 p2 = rows.points[2].r_b, p3 = rows.points[3].r_b;
+    // Twice the signed areas of the triangles that leave one point out: weights w with sum w = 0 and
+    // sum w p = 0 across the normal, so loads along w neither push nor turn.
+    const auto area = [n](Vec3 a, Vec3 b, Vec3 c) { return dot(n, cross(b - a, c - a)); };
+    const std::array<float, 4> w = {area(p1, p2, p3), -area(p0, p2, p3), area(p0, p1, p3), -area(p0, p1, p2)};
+    const float squared = w[0] * w[0] + w[1] * w[1] + w[2] * w[2] + w[3] * w[3];
+    if (!(squared > 0)) return;
+    float amount = (w[0] * loads[0] + w[1] * loads[1] + w[2] * loads[2] + w[3] * loads[3]) / squared;
+    // No further than the first load that would become negative.
+    for (std::size_t i = 0; i < 4; ++i) {
+        if (amount * w[i] > loads[i]) amount = loads[i] / w[i];
+    }
+    for (std::size_t i = 0; i < 4; ++i) loads[i] = max(0, loads[i] - amount * w[i]);
+}
+
+}  // namespace cairn

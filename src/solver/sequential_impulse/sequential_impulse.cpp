@@ -1,0 +1,184 @@
+// Sequential impulses; see sequential_impulse.h for the method and its symbols.
+
+#include "solver/sequential_impulse/sequential_impulse.h"
+
+#include "integrate/integrate.h"
+
+namespace cairn {
+
+namespace {
+
+// Share of the overlap removed by one pass of positional correction, and how many passes a substep makes.
+// More or larger passes part overlapping bodies sooner and let a stack jitter.
+constexpr float correction_share = 0.2f;
+constexpr int correction_passes = 4;
+// Overlap that is left alone, as a share of the smaller shape: contacts at rest stay contacts.
+constexpr float slop_share = 0.0005f;
+// No pass moves a point by more than this share of the smaller shape.
+constexpr float largest_correction_share = 0.1f;
+
+float slop(const ContactRows& row) { return slop_share * row.size; }
+
+}  // namespace
+
+void SequentialImpulse::advance(const StepProblem& problem) {
+    const auto h = float(problem.dt / problem.substeps);
+    prepare_rows(problem, rows_);
+    for (int substep = 0; substep < problem.substeps; ++substep) {
+        find_responses(problem, responses_);
+        refresh_rows(problem, responses_, rows_);
+        impacts_.resolve(problem, responses_, rows_, h);
+        for (const std::uint32_t i : problem.moving) {
+            integrate_velocity(problem.motions[i], problem.inertias[i], problem.drives[i], responses_[i],
+                               problem.gravity, h);
+        }
+        load_impulses(problem, h);
+        warm_start(problem);
+        for (int iteration = 0; iteration < problem.iterations; ++iteration) {
+            solve_velocities(problem, h, iteration % 2 == 1);
+        }
+        for (const std::uint32_t i : problem.moving) {
+            integrate_pose(problem.motions[i], problem.inertias[i], problem.drives[i], h);
+        }
+        correct_positions(problem);
+        store_impulses(problem, h);
+    }
+}
+
+void SequentialImpulse::load_impulses(const StepProblem& problem, float h) {
+    accumulated_.assign(rows_.size(), {});
+    for (std::size_t k = 0; k < rows_.size(); ++k) {
+        const ContactRows& row = rows_[k];
+        const Contact& contact = problem.contacts[row.contact];
+        Accumulated& sum = accumulated_[k];
+        for (std::size_t i = 0; i < std::size_t(row.point_count); ++i) {
+            sum.normal[i] = h * contact.points[i].normal_force;
+        }
+        share_evenly(row, sum.normal);
+        float load = 0;
+        for (std::size_t i = 0; i < std::size_t(row.point_count); ++i) {
+            const Vec3 friction = h * without_normal(contact.points[i].friction_force, row.normal);
+            sum.friction[i] = clamp_length(friction, row.friction * sum.normal[i]);
+            load += sum.normal[i];
+        }
+        sum.rolling = clamp_length(h * without_normal(contact.rolling_torque, row.normal),
+                                   row.rolling_friction * load);
+        sum.spinning =
+            clamp(h * contact.spinning_torque, -row.spinning_friction * load, row.spinning_friction * load);
+    }
+}
+
+void SequentialImpulse::warm_start(const StepProblem& problem) {
+    for (std::size_t k = 0; k < rows_.size(); ++k) {
+        const ContactRows& row = rows_[k];
+        const Accumulated& sum = accumulated_[k];
+        BodyMotion& a = problem.motions[row.body_a];
+        BodyMotion& b = problem.motions[row.body_b];
+        const Response& response_a = responses_[row.body_a];
+        const Response& response_b = responses_[row.body_b];
+        for (std::size_t i = 0; i < std::size_t(row.point_count); ++i) {
+            apply_impulse(a, response_a, row.points[i].r_a, b, response_b, row.points[i].r_b,
+                          sum.normal[i] * row.normal + sum.friction[i]);
+        }
+        const Vec3 twist = sum.rolling + sum.spinning * row.normal;
+        a.angular_velocity -= response_a.inverse_inertia * twist;
+        b.angular_velocity += response_b.inverse_inertia * twist;
+    }
+}
+
+void SequentialImpulse::solve_velocities(const StepProblem& problem, float h, bool backward) {
+    const float inverse_h = 1.0f / h;
+    for (std::size_t index = 0; index < rows_.size(); ++index) {
+        const std::size_t k = backward ? rows_.size() - 1 - index : index;
+        const ContactRows& row = rows_[k];
+        Accumulated& sum = accumulated_[k];
+        BodyMotion& a = problem.motions[row.body_a];
+        BodyMotion& b = problem.motions[row.body_b];
+        const Response& response_a = responses_[row.body_a];
+        const Response& response_b = responses_[row.body_b];
+        const Vec3 n = row.normal;
+
+        float load = 0;
+        for (std::size_t i = 0; i < std::size_t(row.point_count); ++i) {
+            const PointRow& p = row.points[i];
+            const Vec3 v = relative_velocity(a, p.r_a, b, p.r_b) + row.surface_velocity;
+            const Vec3 wanted = sum.friction[i] - p.tangent_mass * without_normal(v, n);
+            const Vec3 allowed = clamp_length(wanted, row.friction * sum.normal[i]);
+            apply_impulse(a, response_a, p.r_a, b, response_b, p.r_b, allowed - sum.friction[i]);
+            sum.friction[i] = allowed;
+            load += sum.normal[i];
+        }
+        if (row.rolling_friction > 0 || row.spinning_friction > 0) {
+            const Vec3 w = b.angular_velocity - a.angular_velocity;
+            const Vec3 rolling = clamp_length(sum.rolling - row.rolling_mass * without_normal(w, n),
+                                              row.rolling_friction * load);
+            const float most = row.spinning_friction * load;
+            const float spinning = clamp(sum.spinning - row.spinning_mass * dot(n, w), -most, most);
+            const Vec3 twist = (rolling - sum.rolling) + (spinning - sum.spinning) * n;
+            a.angular_velocity -= response_a.inverse_inertia * twist;
+            b.angular_velocity += response_b.inverse_inertia * twist;
+            sum.rolling = rolling;
+            sum.spinning = spinning;
+        }
+        for (std::size_t i = 0; i < std::size_t(row.point_count); ++i) {
+            const PointRow& p = row.points[i];
+            const float u = dot(n, relative_velocity(a, p.r_a, b, p.r_b));
+            const float total =
+                max(0, sum.normal[i] - p.normal_mass * (u + max(p.separation, 0) * inverse_h));
+            apply_impulse(a, response_a, p.r_a, b, response_b, p.r_b, (total - sum.normal[i]) * n);
+            sum.normal[i] = total;
+        }
+    }
+}
+
+void SequentialImpulse::correct_positions(const StepProblem& problem) {
+    for (int pass = 0; pass < correction_passes; ++pass) {
+        bool corrected = false;
+        for (std::size_t index = 0; index < rows_.size(); ++index) {
+            const ContactRows& row = rows_[pass % 2 == 1 ? rows_.size() - 1 - index : index];
+            BodyMotion& a = problem.motions[row.body_a];
+            BodyMotion& b = problem.motions[row.body_b];
+            const Response& response_a = responses_[row.body_a];
+            const Response& response_b = responses_[row.body_b];
+            for (std::size_t i = 0; i < std::size_t(row.point_count); ++i) {
+                const PointRow& p = row.points[i];
+                const float s = find_separation(p, row.normal, a, b);
+                const float excess = -(s + slop(row));
+                if (!(excess > 0)) continue;
+                corrected = true;
+                const float wanted = min(correction_share * excess, largest_correction_share * row.size);
+                const Vec3 push = (wanted * p.normal_mass) * row.normal;
+                a.displacement -= multiply(response_a.inverse_mass, push);
+                b.displacement += multiply(response_b.inverse_mass, push);
+                if (response_a.inverse_mass != Vec3{}) {
+                    a.rotation = turn(a.rotation, -(response_a.inverse_inertia * cross(p.r_a, push)));
+                }
+                if (response_b.inverse_mass != Vec3{}) {
+                    b.rotation = turn(b.rotation, response_b.inverse_inertia * cross(p.r_b, push));
+                }
+            }
+        }
+        if (!corrected) return;
+    }
+}
+
+void SequentialImpulse::store_impulses(const StepProblem& problem, float h) {
+    const float inverse_h = 1.0f / h;
+    for (std::size_t k = 0; k < rows_.size(); ++k) {
+        const Accumulated& sum = accumulated_[k];
+        Contact& contact = problem.contacts[rows_[k].contact];
+        for (std::size_t i = 0; i < std::size_t(rows_[k].point_count); ++i) {
+            ContactPoint& point = contact.points[i];
+            point.normal_force = inverse_h * sum.normal[i];
+            point.friction_force = inverse_h * sum.friction[i];
+            point.normal_impulse += sum.normal[i];
+            point.friction_impulse += sum.friction[i];
+        }
+        contact.rolling_torque = inverse_h * sum.rolling;
+        contact.spinning_torque = inverse_h * sum.spinning;
+        contact.rolling_impulse += sum.rolling;
+        contact.spinning_impulse += sum.spinning;
+    }
+}
+
+}  // namespace cairn
