@@ -1,9 +1,9 @@
 #pragma once
 // Arithmetic on the public types, for the user's convenience.
 //
-// All of it is compiled inside the library, with the library's floating-point flags: a program built
-// with -ffast-math or fused multiply-add gets the same bits from these functions as any other, on every
-// machine. Cairn's own kernels use inlined twins of them.
+// All of it is compiled inside the library, with the library's floating-point flags: a program
+// built with -ffast-math or fused multiply-add gets the same bits from these functions as any
+// other, on every machine. Cairn's own kernels use inlined twins of them.
 
 #include "cairn/types.h"
 

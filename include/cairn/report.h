@@ -1,6 +1,6 @@
 #pragma once
-// What can be read from a world after a step: contacts with their impulses, events, energy, momentum,
-// times, and what went wrong.
+// What can be read from a world after a step: contacts with their impulses, events, energy,
+// momentum, times, and what went wrong.
 
 #include <array>
 #include <cstddef>
@@ -14,22 +14,23 @@
 namespace cairn {
 
 struct ContactPointReport {
-    Position position = {};     ///< halfway between the two surfaces, world
-    float separation = 0;       ///< m, negative where the shapes overlap
-    float normal_impulse = 0;   ///< N s over the last step, >= 0, on body b along the normal
-    std::uint32_t feature = 0;  ///< which features of the two shapes meet here; stable while they do
+    Position position = {};    ///< halfway between the two surfaces, world
+    float separation = 0;      ///< m, negative where the shapes overlap
+    float normal_impulse = 0;  ///< N s over the last step, >= 0, on body b along the normal
+    std::uint32_t feature =
+        0;  ///< which features of the two shapes meet here; stable while they do
 };
 
 /// One pair of shapes in touch, or about to be.
 struct ContactReport {
     BodyId body_a, body_b;
     ShapeId shape_a, shape_b;
-    Vec3 normal = {};           ///< unit, from a to b, world
+    Vec3 normal = {};  ///< unit, from a to b, world
     std::array<ContactPointReport, 4> points = {};
     int point_count = 0;
-    Vec3 friction_impulse = {}; ///< N s on body b over the last step, across the normal
-    float spinning_impulse = 0; ///< N m s on body b about the normal, from spinning friction
-    Vec3 rolling_impulse = {};  ///< N m s on body b, from rolling friction
+    Vec3 friction_impulse = {};  ///< N s on body b over the last step, across the normal
+    float spinning_impulse = 0;  ///< N m s on body b about the normal, from spinning friction
+    Vec3 rolling_impulse = {};   ///< N m s on body b, from rolling friction
 };
 
 enum class ContactEventKind : std::uint8_t { Begin, End };
@@ -74,11 +75,12 @@ inline constexpr std::size_t stage_count = 5;
 const char* stage_name(Stage stage);
 
 struct StepReport {
-    std::uint64_t step = 0;        ///< how many steps the world has taken
-    double time = 0;               ///< s since the world began
-    std::size_t pair_count = 0;    ///< pairs whose boxes overlap
-    std::size_t contact_count = 0; ///< contact points of the step
-    std::array<double, stage_count> stage_seconds = {};  ///< wall time; no part of the world's state
+    std::uint64_t step = 0;         ///< how many steps the world has taken
+    double time = 0;                ///< s since the world began
+    std::size_t pair_count = 0;     ///< pairs whose boxes overlap
+    std::size_t contact_count = 0;  ///< contact points of the step
+    std::array<double, stage_count> stage_seconds =
+        {};  ///< wall time; no part of the world's state
 };
 
 }  // namespace cairn

@@ -21,8 +21,8 @@ struct Error {
     std::string message;
 };
 
-/// A value of type T, or an Error. `*result` on an error gives a value-initialised T (a null id, say),
-/// never undefined behaviour.
+/// A value of type T, or an Error. `*result` on an error gives a value-initialised T (a null id,
+/// say), never undefined behaviour.
 template <class T>
 class Result {
 public:

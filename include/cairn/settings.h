@@ -39,8 +39,8 @@ int default_substeps(Solver solver);
 int default_iterations(Solver solver);
 
 struct WorldSettings {
-    Vec3 gravity = {0, -9.81f, 0};      ///< m/s^2
-    float restitution_threshold = 1.0f; ///< m/s, >= 0: slower impacts do not bounce
+    Vec3 gravity = {0, -9.81f, 0};       ///< m/s^2
+    float restitution_threshold = 1.0f;  ///< m/s, >= 0: slower impacts do not bounce
     StepSettings step = {};
     friend constexpr bool operator==(const WorldSettings&, const WorldSettings&) = default;
 };

@@ -20,8 +20,8 @@ struct Box {
     friend constexpr bool operator==(const Box&, const Box&) = default;
 };
 
-/// A half-space: solid where normal . x <= offset. Static bodies only. `normal` is normalised when the
-/// shape is created; offset in metres along the unit normal.
+/// A half-space: solid where normal . x <= offset. Static bodies only. `normal` is normalised when
+/// the shape is created; offset in metres along the unit normal.
 struct Plane {
     Vec3 normal = {0, 1, 0};
     float offset = 0;
@@ -33,19 +33,20 @@ using Geometry = std::variant<Sphere, Box, Plane>;
 /// How a surface rubs and bounces. Where two meet: friction is the geometric mean, restitution,
 /// rolling and spinning friction the larger of the two.
 struct Material {
-    float friction = 0.6f;          ///< Coulomb coefficient, sticking and sliding alike, >= 0
-    float restitution = 0;          ///< 0 (no rebound) to 1 (no loss)
-    float rolling_friction = 0;     ///< metres: rolling torque <= this times the normal force
-    float spinning_friction = 0;    ///< metres: torque about the normal <= this times the normal force
-    Vec3 surface_velocity = {};     ///< m/s in the body frame: a conveyor's belt
+    float friction = 0.6f;       ///< Coulomb coefficient, sticking and sliding alike, >= 0
+    float restitution = 0;       ///< 0 (no rebound) to 1 (no loss)
+    float rolling_friction = 0;  ///< metres: rolling torque <= this times the normal force
+    float spinning_friction =
+        0;                       ///< metres: torque about the normal <= this times the normal force
+    Vec3 surface_velocity = {};  ///< m/s in the body frame: a conveyor's belt
     friend constexpr bool operator==(const Material&, const Material&) = default;
 };
 
 /// A shape as a body carries it.
 struct ShapeDef {
     Geometry geometry = Sphere{};
-    Pose local_pose = {};     ///< the shape's frame in the body's frame; the rotation is normalised
-    float density = 1000;     ///< kg/m^3, > 0; of no effect on static and kinematic bodies
+    Pose local_pose = {};  ///< the shape's frame in the body's frame; the rotation is normalised
+    float density = 1000;  ///< kg/m^3, > 0; of no effect on static and kinematic bodies
     Material material = {};
 };
 

@@ -1,12 +1,14 @@
 #pragma once
 // The world: bodies, and the step that moves them.
 //
-// A world is a value. Copying one takes a complete snapshot: the copy, stepped, goes through exactly
-// the states that the original goes through, to the bit, and ids of the one are valid in the other.
+// A world is a value. Copying one takes a complete snapshot: the copy, stepped, goes through
+// exactly the states that the original goes through, to the bit, and ids of the one are valid in
+// the other.
 //
-// Every call checks what it is given, in every build. A refused call changes nothing, returns an Error,
-// and tells the error handler if there is one. Questions about an id that is gone answer with zeros and
-// tell the error handler. Not to be called from two threads at once; distinct worlds share nothing.
+// Every call checks what it is given, in every build. A refused call changes nothing, returns an
+// Error, and tells the error handler if there is one. Questions about an id that is gone answer
+// with zeros and tell the error handler. Not to be called from two threads at once; distinct worlds
+// share nothing.
 
 #include <cstdint>
 #include <functional>
@@ -113,8 +115,8 @@ public:
     static Penetration penetration(std::span<const ContactReport> contacts);
     Energy energy() const;
     Momentum momentum() const;
-    /// FNV-1a, 64 bits, over the bodies in the order of bodies(), little-endian: position 3 x binary64,
-    /// rotation, linear and angular velocity binary32, asleep one byte.
+    /// FNV-1a, 64 bits, over the bodies in the order of bodies(), little-endian: position 3 x
+    /// binary64, rotation, linear and angular velocity binary32, asleep one byte.
     std::uint64_t state_hash() const;
 
 private:

@@ -1,9 +1,10 @@
 #pragma once
-// The processor's rounding and denormal modes, put to the IEEE defaults for as long as one of these lives.
+// The processor's rounding and denormal modes, put to the IEEE defaults for as long as one of these
+// lives.
 //
-// A host may round upward, flush denormals to zero (a library linked with -ffast-math does so for the whole
-// process) or trap on inexact results; the bits of a step may not depend on it. Whatever was set is put
-// back at the end.
+// A host may round upward, flush denormals to zero (a library linked with -ffast-math does so for
+// the whole process) or trap on inexact results; the bits of a step may not depend on it. Whatever
+// was set is put back at the end.
 
 #include <cstdint>
 

@@ -1,8 +1,9 @@
 #pragma once
-// A hash table from a pair's 64-bit key to a 32-bit slot: insertion, look-up and removal in constant time,
-// and no order of its own that anything could depend on.
+// A hash table from a pair's 64-bit key to a 32-bit slot: insertion, look-up and removal in
+// constant time, and no order of its own that anything could depend on.
 //
-// Open addressing with linear probing; removal shifts the followers back, so that no tombstones gather.
+// Open addressing with linear probing; removal shifts the followers back, so that no tombstones
+// gather.
 
 #include <bit>
 #include <cstddef>

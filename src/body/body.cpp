@@ -6,9 +6,9 @@ namespace cairn {
 
 namespace {
 
-// Rotation about the world axis `locked` is forbidden: the inverse of what is left of the inertia when its
-// row and column are struck out. Zeroing the inverse's own row would answer too softly. As an update of the
-// inverse that already honours earlier locks: J' = J - (J e)(J e)^T / (e.J e).
+// Rotation about the world axis `locked` is forbidden: the inverse of what is left of the inertia
+// when its row and column are struck out. Zeroing the inverse's own row would answer too softly. As
+// an update of the inverse that already honours earlier locks: J' = J - (J e)(J e)^T / (e.J e).
 SymmetricMat3 lock_rotation(const SymmetricMat3& j, Vec3 e) {
     const Vec3 je = j * e;
     const float pivot = dot(e, je);
@@ -45,9 +45,12 @@ Response find_response(const BodyInertia& inertia, const BodyDrive& drive, Quat 
     } else {
         response.inverse_inertia = rotate(to_matrix(rotation), inertia.inverse_inertia);
     }
-    if (drive.lock.rx) response.inverse_inertia = lock_rotation(response.inverse_inertia, {1, 0, 0});
-    if (drive.lock.ry) response.inverse_inertia = lock_rotation(response.inverse_inertia, {0, 1, 0});
-    if (drive.lock.rz) response.inverse_inertia = lock_rotation(response.inverse_inertia, {0, 0, 1});
+    if (drive.lock.rx)
+        response.inverse_inertia = lock_rotation(response.inverse_inertia, {1, 0, 0});
+    if (drive.lock.ry)
+        response.inverse_inertia = lock_rotation(response.inverse_inertia, {0, 1, 0});
+    if (drive.lock.rz)
+        response.inverse_inertia = lock_rotation(response.inverse_inertia, {0, 0, 1});
     return response;
 }
 

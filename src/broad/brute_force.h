@@ -1,6 +1,6 @@
 #pragma once
-// The reference broad phase: every box against every other. Slow, obviously right, and kept for ever for
-// the others to be tested against.
+// The reference broad phase: every box against every other. Slow, obviously right, and kept for
+// ever for the others to be tested against.
 
 #include <cstdint>
 #include <span>
@@ -23,7 +23,8 @@ struct Pair {
     friend constexpr auto operator<=>(const Pair&, const Pair&) = default;
 };
 
-// Replaces `pairs` by all pairs of overlapping boxes, sorted. The proxies come in ascending order of id.
+// Replaces `pairs` by all pairs of overlapping boxes, sorted. The proxies come in ascending order
+// of id.
 void find_pairs_by_brute_force(std::span<const Proxy> proxies, std::vector<Pair>& pairs);
 
 }  // namespace cairn

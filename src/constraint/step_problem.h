@@ -1,10 +1,12 @@
 #pragma once
-// What a solver is given, and what it gives back: data only, and how things must be, never how to get there.
+// What a solver is given, and what it gives back: data only, and how things must be, never how to
+// get there.
 //
-// Bodies are named by their place in the spans. A contact pushes body B along the normal with an impulse that
-// is never negative, body A with the opposite one; across the normal the impulse stays within friction times
-// that. A solver advances velocities, rotations and displacements over dt, and leaves in every contact the
-// forces to begin the next step with and the impulses of the whole step.
+// Bodies are named by their place in the spans. A contact pushes body B along the normal with an
+// impulse that is never negative, body A with the opposite one; across the normal the impulse stays
+// within friction times that. A solver advances velocities, rotations and displacements over dt,
+// and leaves in every contact the forces to begin the next step with and the impulses of the whole
+// step.
 
 #include <cstdint>
 #include <span>
@@ -20,14 +22,15 @@ struct StepProblem {
     std::span<const BodyDrive> drives;
     std::span<const std::uint32_t> moving;  // kinematic and dynamic bodies, ascending
     std::span<Contact> contacts;
-    std::span<const std::uint32_t> active;  // the contacts with points, in ascending order of their keys
+    std::span<const std::uint32_t>
+        active;  // the contacts with points, in ascending order of their keys
 
     Vec3 gravity;
     double dt = 0;
     int substeps = 1;
     int iterations = 1;
-    float restitution_threshold = 1;   // m/s
-    float contact_compliance = 0;      // m/N
+    float restitution_threshold = 1;  // m/s
+    float contact_compliance = 0;     // m/N
 };
 
 }  // namespace cairn

@@ -1,6 +1,7 @@
 #pragma once
-// A contact: the persistent meeting of two shapes, from the step in which their boxes first overlap to the
-// step in which they part. Geometry is renewed every step; impulses live on, point by point, by feature id.
+// A contact: the persistent meeting of two shapes, from the step in which their boxes first overlap
+// to the step in which they part. Geometry is renewed every step; impulses live on, point by point,
+// by feature id.
 
 #include <array>
 #include <cstdint>
@@ -10,24 +11,28 @@
 
 namespace cairn {
 
-// The arm from a body's center of mass to a contact point. `core` is fixed in the body (its frame) and turns
-// with it; `offset` is fixed in the world: the point of a ball that touches does not turn with the ball.
+// The arm from a body's center of mass to a contact point. `core` is fixed in the body (its frame)
+// and turns with it; `offset` is fixed in the world: the point of a ball that touches does not turn
+// with the ball.
 struct Arm {
     Vec3 core;
     Vec3 offset;
 };
 
-inline Vec3 find_arm(const Arm& arm, Quat rotation) { return rotate(rotation, arm.core) + arm.offset; }
+inline Vec3 find_arm(const Arm& arm, Quat rotation) {
+    return rotate(rotation, arm.core) + arm.offset;
+}
 
 struct ContactPoint {
-    Arm arm_a, arm_b;          // to the same place in the world, halfway between the surfaces
-    float separation = 0;      // m at the step's start
+    Arm arm_a, arm_b;      // to the same place in the world, halfway between the surfaces
+    float separation = 0;  // m at the step's start
     std::uint32_t feature = 0;
-    // What the solver found last, as forces (N), so that a change of the step's length changes nothing:
-    // where the next step begins.
+    // What the solver found last, as forces (N), so that a change of the step's length changes
+    // nothing: where the next step begins.
     float normal_force = 0;
-    Vec3 friction_force;       // world, on B
-    // What passed through the point over the whole last step (N s, on B), shocks included: for reports.
+    Vec3 friction_force;  // world, on B
+    // What passed through the point over the whole last step (N s, on B), shocks included: for
+    // reports.
     float normal_impulse = 0;
     Vec3 friction_impulse;
 };
@@ -42,21 +47,21 @@ struct Contact {
     float restitution = 0;
     float rolling_friction = 0;
     float spinning_friction = 0;
-    Vec3 surface_velocity;     // of B's surface less A's, world, beyond the bodies' own motion
-    float size = 0;            // the smaller of the shapes' smallest half extents: what lengths are measured by
+    Vec3 surface_velocity;  // of B's surface less A's, world, beyond the bodies' own motion
+    float size =
+        0;  // the smaller of the shapes' smallest half extents: what lengths are measured by
 
-    Vec3 normal = {0, 1, 0};   // unit, from A to B, world
+    Vec3 normal = {0, 1, 0};  // unit, from A to B, world
     int point_count = 0;
     std::array<ContactPoint, 4> points;
-    Vec3 rolling_torque;       // N m on B, where the next step begins
-    float spinning_torque = 0; // N m on B about the normal
-    Vec3 rolling_impulse;      // N m s on B over the last step
+    Vec3 rolling_torque;        // N m on B, where the next step begins
+    float spinning_torque = 0;  // N m on B about the normal
+    Vec3 rolling_impulse;       // N m s on B over the last step
     float spinning_impulse = 0;
 
-    Axis axis;                 // the narrow phase's answer, in shape A's frame
+    Axis axis;  // the narrow phase's answer, in shape A's frame
     AxisHint hint;
-    bool touching = false;     // after the last step
-    bool is_new = true;        // no step has solved it yet
+    bool touching = false;  // after the last step
 };
 
 }  // namespace cairn

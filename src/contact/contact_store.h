@@ -1,6 +1,6 @@
 #pragma once
-// Where contacts live: found by pair in constant time, kept in slots that do not move, listed in the order
-// of their keys. A pair that ends leaves with its key.
+// Where contacts live: found by pair in constant time, kept in slots that do not move, listed in
+// the order of their keys. A pair that ends leaves with its key.
 
 #include <cstdint>
 #include <span>
@@ -20,13 +20,18 @@ class ContactStore {
 public:
     static constexpr std::uint32_t none = PairTable::none;
 
-    // A renewal lists all pairs of the step, in ascending order of key; the contacts of those not listed end.
+    // A renewal lists all pairs of the step, in ascending order of key; the contacts of those not
+    // listed end.
     void begin_renewal();
     // The slot of the pair's contact, a new one where there was none.
     std::uint32_t renew(std::uint32_t shape_a, std::uint32_t shape_b);
     // Ends what was not renewed, calling on_end(contact) for each, in ascending order of key.
     template <class OnEnd>
     void end_renewal(OnEnd&& on_end);
+
+    // Ends contacts outside a renewal: those of a body that is gone, say.
+    template <class Unwanted>
+    void remove_if(Unwanted&& unwanted);
 
     // Slots in ascending order of key.
     std::span<const std::uint32_t> listed() const { return listed_; }
@@ -45,9 +50,19 @@ private:
     PairTable table_;
 };
 
-// Carries the impulses of `contact`'s points over to the new points where the feature is the same; then the
-// new points take the old ones' place.
+// Carries the impulses of `contact`'s points over to the new points where the feature is the same;
+// then the new points take the old ones' place.
 void match_points(Contact& contact, std::span<const ContactPoint> renewed);
+
+template <class Unwanted>
+void ContactStore::remove_if(Unwanted&& unwanted) {
+    std::erase_if(listed_, [&](std::uint32_t slot) {
+        if (!unwanted(slots_[slot])) return false;
+        table_.remove(slots_[slot].key);
+        free_.push_back(slot);
+        return true;
+    });
+}
 
 template <class OnEnd>
 void ContactStore::end_renewal(OnEnd&& on_end) {

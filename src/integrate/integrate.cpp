@@ -18,8 +18,8 @@ struct BodyFrameSpin {
     Vec3 after;  // W'
 };
 
-BodyFrameSpin solve_spin(Vec3 before, const SymmetricMat3& inertia, const SymmetricMat3& inverse_inertia,
-                         float h) {
+BodyFrameSpin solve_spin(Vec3 before, const SymmetricMat3& inertia,
+                         const SymmetricMat3& inverse_inertia, float h) {
     const Vec3 momentum = inertia * before;
     // d/dW' of I W' - exp(-h Wm) I W, to first order in h: I - (h/2) [I W]x.
     const Vec3 k = (0.5f * h) * momentum;
@@ -50,7 +50,8 @@ void free_rotation(Quat& rotation, Vec3& angular_velocity, const SymmetricMat3& 
                    const SymmetricMat3& inverse_inertia, float h) {
     Vec3 spin = rotate_inverse(rotation, angular_velocity);
     const float angle = h * length(spin);
-    const int pieces = angle < piece_angle * float(most_pieces) ? 1 + int(angle / piece_angle) : most_pieces;
+    const int pieces =
+        angle < piece_angle * float(most_pieces) ? 1 + int(angle / piece_angle) : most_pieces;
     const float piece = h / float(pieces);
     for (int i = 0; i < pieces; ++i) {
         const BodyFrameSpin solved = solve_spin(spin, inertia, inverse_inertia, piece);
@@ -64,7 +65,8 @@ void integrate_velocity(BodyMotion& motion, const BodyInertia& inertia, const Bo
                         const Response& response, Vec3 gravity, float h) {
     if (inertia.inverse_mass == 0) return;
     const LockedAxes& lock = drive.lock;
-    Vec3 v = motion.linear_velocity + h * (drive.gravity_scale * gravity + inertia.inverse_mass * drive.force);
+    Vec3 v = motion.linear_velocity +
+             h * (drive.gravity_scale * gravity + inertia.inverse_mass * drive.force);
     Vec3 w = motion.angular_velocity + h * (response.inverse_inertia * drive.torque);
     v = (1.0f / (1.0f + h * drive.linear_damping)) * v;
     w = (1.0f / (1.0f + h * drive.angular_damping)) * w;
@@ -72,12 +74,14 @@ void integrate_velocity(BodyMotion& motion, const BodyInertia& inertia, const Bo
     motion.angular_velocity = without_locked(w, lock.rx, lock.ry, lock.rz);
 }
 
-void integrate_pose(BodyMotion& motion, const BodyInertia& inertia, const BodyDrive& drive, float h) {
+void integrate_pose(BodyMotion& motion, const BodyInertia& inertia, const BodyDrive& drive,
+                    float h) {
     motion.displacement += h * motion.linear_velocity;
     if (motion.angular_velocity == Vec3{}) return;
     const bool turns_freely = !drive.lock.rx && !drive.lock.ry && !drive.lock.rz;
     if (inertia.inverse_mass > 0 && drive.gyroscopic && !inertia.isotropic && turns_freely) {
-        free_rotation(motion.rotation, motion.angular_velocity, inertia.inertia, inertia.inverse_inertia, h);
+        free_rotation(motion.rotation, motion.angular_velocity, inertia.inertia,
+                      inertia.inverse_inertia, h);
     } else {
         motion.rotation = turn(motion.rotation, h * motion.angular_velocity);
     }

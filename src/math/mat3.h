@@ -42,7 +42,8 @@ constexpr SymmetricMat3 rotate(const Mat3& r, const SymmetricMat3& m) {
     constexpr auto px = [](Vec3 v) { return v.x; };
     constexpr auto py = [](Vec3 v) { return v.y; };
     constexpr auto pz = [](Vec3 v) { return v.z; };
-    return {entry(px, px), entry(py, py), entry(pz, pz), entry(px, py), entry(px, pz), entry(py, pz)};
+    return {entry(px, px), entry(py, py), entry(pz, pz),
+            entry(px, py), entry(px, pz), entry(py, pz)};
 }
 
 /// The solution x of m x = b by Cramer's rule; zero where m is singular.
@@ -61,8 +62,12 @@ constexpr SymmetricMat3 inverse(const SymmetricMat3& m) {
     const double determinant = xx * c_xx + xy * c_xy + xz * c_xz;
     if (!(determinant > 0)) return {};
     const double s = 1.0 / determinant;
-    return {float(s * c_xx),           float(s * (xx * zz - xz * xz)), float(s * (xx * yy - xy * xy)),
-            float(s * c_xy),           float(s * c_xz),                float(s * (xy * xz - xx * yz))};
+    return {float(s * c_xx),
+            float(s * (xx * zz - xz * xz)),
+            float(s * (xx * yy - xy * xy)),
+            float(s * c_xy),
+            float(s * c_xz),
+            float(s * (xy * xz - xx * yz))};
 }
 
 }  // namespace kernel

@@ -51,7 +51,8 @@ inline Quat exponential_map(Vec3 theta) {
     if (squared < 0.25) {
         // Series in (|theta|/2)^2 <= 1/16: the neglected terms are below 1e-15.
         const double u = squared * 0.25;
-        s = 0.5 * (1 - u * (1.0 / 6 - u * (1.0 / 120 - u * (1.0 / 5040 - u * (1.0 / 362880 - u / 39916800)))));
+        s = 0.5 * (1 - u * (1.0 / 6 - u * (1.0 / 120 -
+                                           u * (1.0 / 5040 - u * (1.0 / 362880 - u / 39916800)))));
         c = 1 - u * (0.5 - u * (1.0 / 24 - u * (1.0 / 720 - u * (1.0 / 40320 - u / 3628800))));
     } else {
         const double angle = square_root(squared);

@@ -1,10 +1,10 @@
 // Sine, cosine and arc tangent by argument reduction and power series, in binary64.
 //
-// sine and cosine: x = k pi/2 + r with |r| <= pi/4, pi/2 split in three so that k times each part is
-// exact for |k| < 2^20 (Cody and Waite); then the Taylor series to r^17, whose first neglected term is
-// below 1e-17 at pi/4. arc tangent: the quotient folded to [0, 1], then twice through
-// atan(x) = 2 atan(x / (1 + sqrt(1 + x^2))), which leaves |x| <= 0.199; the series to x^21 then errs
-// below 1e-17.
+// sine and cosine: x = k pi/2 + r with |r| <= pi/4, pi/2 split in three so that k times each part
+// is exact for |k| < 2^20 (Cody and Waite); then the Taylor series to r^17, whose first neglected
+// term is below 1e-17 at pi/4. arc tangent: the quotient folded to [0, 1], then twice through
+// atan(x) = 2 atan(x / (1 + sqrt(1 + x^2))), which leaves |x| <= 0.199; the series to x^21 then
+// errs below 1e-17.
 
 #include "math/scalar.h"
 
@@ -26,23 +26,22 @@ SineCosine sine_cosine(double radians) {
     const double z = r * r;
 
     const double s =
-        r + r * z *
-                (-1.0 / 6 +
-                 z * (1.0 / 120 +
-                      z * (-1.0 / 5040 +
-                           z * (1.0 / 362880 +
-                                z * (-1.0 / 39916800 +
-                                     z * (1.0 / 6227020800.0 + z * (-1.0 / 1307674368000.0 +
-                                                                    z / 355687428096000.0)))))));
+        r +
+        r * z *
+            (-1.0 / 6 +
+             z * (1.0 / 120 + z * (-1.0 / 5040 +
+                                   z * (1.0 / 362880 + z * (-1.0 / 39916800 +
+                                                            z * (1.0 / 6227020800.0 +
+                                                                 z * (-1.0 / 1307674368000.0 +
+                                                                      z / 355687428096000.0)))))));
     const double c =
         1 - 0.5 * z +
         z * z *
             (1.0 / 24 +
              z * (-1.0 / 720 +
-                  z * (1.0 / 40320 +
-                       z * (-1.0 / 3628800 +
-                            z * (1.0 / 479001600.0 +
-                                 z * (-1.0 / 87178291200.0 + z / 20922789888000.0))))));
+                  z * (1.0 / 40320 + z * (-1.0 / 3628800 +
+                                          z * (1.0 / 479001600.0 + z * (-1.0 / 87178291200.0 +
+                                                                        z / 20922789888000.0))))));
 
     switch (quadrant & 3) {
         case 0: return {s, c};

@@ -1,6 +1,6 @@
 #pragma once
-// Scalar functions with the same bits on every machine: IEEE additions, products, quotients and square
-// roots only, never libm.
+// Scalar functions with the same bits on every machine: IEEE additions, products, quotients and
+// square roots only, never libm.
 
 #include <cmath>
 #include <cstdint>

@@ -1,6 +1,6 @@
 #pragma once
-// Vectors and world positions: the inlined arithmetic of the kernels. Not to be included together with
-// the public cairn/math.h, which offers the same names compiled in the library.
+// Vectors and world positions: the inlined arithmetic of the kernels. Not to be included together
+// with the public cairn/math.h, which offers the same names compiled in the library.
 
 #include "cairn/types.h"
 #include "math/scalar.h"

@@ -20,12 +20,13 @@ float softest_across(Vec3 n, Form&& q) {
     return largest > 0 ? 1.0f / largest : 0;
 }
 
-void refresh_point(PointRow& p, Vec3 n, const BodyMotion& a, const BodyMotion& b, const Response& response_a,
-                   const Response& response_b) {
+void refresh_point(PointRow& p, Vec3 n, const BodyMotion& a, const BodyMotion& b,
+                   const Response& response_a, const Response& response_b) {
     const Vec3 arm_a = find_arm(p.arm_a, a.rotation);
     const Vec3 arm_b = find_arm(p.arm_b, b.rotation);
     // The two material points were one place when the step began; the common point is halfway now.
-    const Vec3 apart = (b.displacement + (arm_b - p.start_b)) - (a.displacement + (arm_a - p.start_a));
+    const Vec3 apart =
+        (b.displacement + (arm_b - p.start_b)) - (a.displacement + (arm_a - p.start_a));
     p.r_a = arm_a + 0.5f * apart;
     p.r_b = arm_b - 0.5f * apart;
     p.separation = p.start_separation + dot(n, apart);
@@ -78,7 +79,8 @@ void find_responses(const StepProblem& problem, std::vector<Response>& responses
         if (problem.inertias[i].inverse_mass == 0) {
             responses[i] = {};
         } else {
-            responses[i] = find_response(problem.inertias[i], problem.drives[i], problem.motions[i].rotation);
+            responses[i] =
+                find_response(problem.inertias[i], problem.drives[i], problem.motions[i].rotation);
         }
     }
 }
@@ -108,13 +110,15 @@ void share_evenly(const ContactRows& rows, std::array<float, 4>& loads) {
     const Vec3 n = rows.normal;
     const Vec3 p0 = rows.points[0].r_b, p1 = rows.points[1].r_b;
     const Vec3 p2 = rows.points[2].r_b, p3 = rows.points[3].r_b;
-    // Twice the signed areas of the triangles that leave one point out: weights w with sum w = 0 and
-    // sum w p = 0 across the normal, so loads along w neither push nor turn.
+    // Twice the signed areas of the triangles that leave one point out: weights w with sum w = 0
+    // and sum w p = 0 across the normal, so loads along w neither push nor turn.
     const auto area = [n](Vec3 a, Vec3 b, Vec3 c) { return dot(n, cross(b - a, c - a)); };
-    const std::array<float, 4> w = {area(p1, p2, p3), -area(p0, p2, p3), area(p0, p1, p3), -area(p0, p1, p2)};
+    const std::array<float, 4> w = {area(p1, p2, p3), -area(p0, p2, p3), area(p0, p1, p3),
+                                    -area(p0, p1, p2)};
     const float squared = w[0] * w[0] + w[1] * w[1] + w[2] * w[2] + w[3] * w[3];
     if (!(squared > 0)) return;
-    float amount = (w[0] * loads[0] + w[1] * loads[1] + w[2] * loads[2] + w[3] * loads[3]) / squared;
+    float amount =
+        (w[0] * loads[0] + w[1] * loads[1] + w[2] * loads[2] + w[3] * loads[3]) / squared;
     // No further than the first load that would become negative.
     for (std::size_t i = 0; i < 4; ++i) {
         if (amount * w[i] > loads[i]) amount = loads[i] / w[i];

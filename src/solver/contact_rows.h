@@ -1,10 +1,10 @@
 #pragma once
-// The geometry of contacts as a solver walks over it: arms and separations that follow the bodies through
-// the substeps of one step, and how strongly each point resists. What a method adds up along the way it
-// keeps in arrays of its own.
+// The geometry of contacts as a solver walks over it: arms and separations that follow the bodies
+// through the substeps of one step, and how strongly each point resists. What a method adds up
+// along the way it keeps in arrays of its own.
 //
-// Symbols: n normal from A to B; r_a, r_b arms from the centers of mass to one common point in the world, so
-// that equal and opposite impulses there conserve angular momentum exactly; s separation;
+// Symbols: n normal from A to B; r_a, r_b arms from the centers of mass to one common point in the
+// world, so that equal and opposite impulses there conserve angular momentum exactly; s separation;
 // K(d) = d.(1/m_a + 1/m_b) d + (r_a x d).I_a^-1 (r_a x d) + (r_b x d).I_b^-1 (r_b x d).
 
 #include <array>
@@ -16,16 +16,17 @@ namespace cairn {
 
 struct PointRow {
     Arm arm_a, arm_b;
-    Vec3 start_a, start_b;       // the arms when the step began
+    Vec3 start_a, start_b;  // the arms when the step began
     float start_separation = 0;
-    Vec3 r_a, r_b;               // now, to the common point
-    float separation = 0;        // now
-    float normal_mass = 0;       // 1 / K(n)
-    float tangent_mass = 0;      // 1 / the largest K across n: a step that never overshoots, in any direction
+    Vec3 r_a, r_b;          // now, to the common point
+    float separation = 0;   // now
+    float normal_mass = 0;  // 1 / K(n)
+    float tangent_mass =
+        0;  // 1 / the largest K across n: a step that never overshoots, in any direction
 };
 
 struct ContactRows {
-    std::uint32_t contact = 0;   // place in StepProblem::contacts
+    std::uint32_t contact = 0;  // place in StepProblem::contacts
     std::uint32_t body_a = 0, body_b = 0;
     Vec3 normal;
     Vec3 surface_velocity;
@@ -34,8 +35,8 @@ struct ContactRows {
     float rolling_friction = 0;
     float spinning_friction = 0;
     float size = 0;
-    float rolling_mass = 0;      // 1 / the largest rotational response across n
-    float spinning_mass = 0;     // 1 / the rotational response about n
+    float rolling_mass = 0;   // 1 / the largest rotational response across n
+    float spinning_mass = 0;  // 1 / the rotational response about n
     int point_count = 0;
     std::array<PointRow, 4> points;
 };
@@ -74,8 +75,8 @@ inline void apply_impulse(BodyMotion& a, const Response& response_a, Vec3 r_a, B
 inline float resistance(const Response& a, Vec3 r_a, const Response& b, Vec3 r_b, Vec3 d) {
     const Vec3 ra_d = cross(r_a, d);
     const Vec3 rb_d = cross(r_b, d);
-    return dot(d, multiply(a.inverse_mass + b.inverse_mass, d)) + dot(ra_d, a.inverse_inertia * ra_d) +
-           dot(rb_d, b.inverse_inertia * rb_d);
+    return dot(d, multiply(a.inverse_mass + b.inverse_mass, d)) +
+           dot(ra_d, a.inverse_inertia * ra_d) + dot(rb_d, b.inverse_inertia * rb_d);
 }
 
 inline Vec3 without_normal(Vec3 v, Vec3 n) { return v - dot(v, n) * n; }
@@ -86,9 +87,9 @@ inline Vec3 clamp_length(Vec3 v, float limit) {
     return squared > limit * limit ? (limit / square_root(squared)) * v : v;
 }
 
-// Four points on one face share a load in many ways that push and turn a body alike. Takes from `loads` the
-// part that does nothing, as far as none becomes negative: the even sharing, which is also what
-// friction should see.
+// Four points on one face share a load in many ways that push and turn a body alike. Takes from
+// `loads` the part that does nothing, as far as none becomes negative: the even sharing, which is
+// also what friction should see.
 void share_evenly(const ContactRows& rows, std::array<float, 4>& loads);
 
 }  // namespace cairn

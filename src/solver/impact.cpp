@@ -8,7 +8,8 @@ namespace {
 
 // Rounds of impacts in one substep: enough for a rack of balls to pass a shock through.
 constexpr int most_rounds = 64;
-// Sweeps over the strikes of a round, and the change of speed, as a share of the fastest target, that ends them.
+// Sweeps over the strikes of a round, and the change of speed, as a share of the fastest target,
+// that ends them.
 constexpr int most_sweeps = 50;
 constexpr float settled_share = 1e-5f;
 
@@ -24,7 +25,8 @@ Vec3 free_acceleration(const StepProblem& problem, std::uint32_t body) {
 
 float rebound_speed(float u, float s, float a, float h, float e) {
     const float q = 0.5f * u * u - a * s + 0.5f * h * a * u;
-    // u'^2/2 + h a u'/2 - a s = e^2 q, solved for its larger root; none where the bounce cannot climb to s.
+    // u'^2/2 + h a u'/2 - a s = e^2 q, solved for its larger root; none where the bounce cannot
+    // climb to s.
     const float under_root = h * h * a * a + 8.0f * (e * e * q + a * s);
     if (!(under_root > 0)) return 0;
     return max(0, 0.5f * (square_root(under_root) - h * a));
@@ -47,7 +49,8 @@ bool ImpactSolver::collect(const StepProblem& problem, std::span<const ContactRo
                                                            free_acceleration(problem, row.body_a));
             if (!(p.separation + h * (u + h * acceleration) < 0)) continue;
             strike.strikes[std::size_t(i)] = true;
-            strike.target[std::size_t(i)] = rebound_speed(u, p.separation, acceleration, h, row.restitution);
+            strike.target[std::size_t(i)] =
+                rebound_speed(u, p.separation, acceleration, h, row.restitution);
             any = true;
         }
         if (!any) continue;
@@ -72,9 +75,11 @@ float ImpactSolver::solve_round(const StepProblem& problem, std::span<const Resp
             const PointRow& p = row.points[i];
             if (row.friction > 0) {
                 const Vec3 v = relative_velocity(a, p.r_a, b, p.r_b) + row.surface_velocity;
-                const Vec3 wanted = strike.friction_impulse[i] - p.tangent_mass * without_normal(v, row.normal);
+                const Vec3 wanted =
+                    strike.friction_impulse[i] - p.tangent_mass * without_normal(v, row.normal);
                 const Vec3 allowed = clamp_length(wanted, row.friction * strike.normal_impulse[i]);
-                apply_impulse(a, response_a, p.r_a, b, response_b, p.r_b, allowed - strike.friction_impulse[i]);
+                apply_impulse(a, response_a, p.r_a, b, response_b, p.r_b,
+                              allowed - strike.friction_impulse[i]);
                 strike.friction_impulse[i] = allowed;
             }
             const float u = dot(row.normal, relative_velocity(a, p.r_a, b, p.r_b));
@@ -83,7 +88,8 @@ float ImpactSolver::solve_round(const StepProblem& problem, std::span<const Resp
             const float change = sum - strike.normal_impulse[i];
             strike.normal_impulse[i] = sum;
             apply_impulse(a, response_a, p.r_a, b, response_b, p.r_b, change * row.normal);
-            if (p.normal_mass > 0) largest_change = max(largest_change, absolute(change) / p.normal_mass);
+            if (p.normal_mass > 0)
+                largest_change = max(largest_change, absolute(change) / p.normal_mass);
         }
     }
     return largest_change;

@@ -1,15 +1,16 @@
 #pragma once
-// Impacts: contacts that close faster than the restitution threshold bounce, before the forces of the substep
-// act. Shared by the methods, since a collision is over before either of them begins.
+// Impacts: contacts that close faster than the restitution threshold bounce, before the forces of
+// the substep act. Shared by the methods, since a collision is over before either of them begins.
 //
-// All contacts that strike at one instant are solved together (accumulated and clamped impulses, friction on
-// a circle), each toward Newton's rebound; what they set in motion may strike others, which makes the next
-// round, so that a row of balls passes momentum on to the last one.
+// All contacts that strike at one instant are solved together (accumulated and clamped impulses,
+// friction on a circle), each toward Newton's rebound; what they set in motion may strike others,
+// which makes the next round, so that a row of balls passes momentum on to the last one.
 //
-// The rebound's speed counts for where in the substep the surfaces meet. For a relative acceleration a along
-// n, semi-implicit Euler conserves Q = u^2/2 - a s + h a u/2 (u = n.v_rel, s the separation) in free flight.
-// A bounce that sets u' so that Q' = e^2 Q, both seen from s = 0, gives the continuous motion's heights at
-// every h; taking u' = e |u| instead costs g h/2 of speed a bounce.
+// The rebound's speed counts for where in the substep the surfaces meet. For a relative
+// acceleration a along n, semi-implicit Euler conserves Q = u^2/2 - a s + h a u/2 (u = n.v_rel, s
+// the separation) in free flight. A bounce that sets u' so that Q' = e^2 Q, both seen from s = 0,
+// gives the continuous motion's heights at every h; taking u' = e |u| instead costs g h/2 of speed
+// a bounce.
 
 #include <span>
 #include <vector>
@@ -20,7 +21,8 @@ namespace cairn {
 
 class ImpactSolver {
 public:
-    // Changes velocities only. Impulses are added to the contacts' reports, not to what warm starting uses.
+    // Changes velocities only. Impulses are added to the contacts' reports, not to what warm
+    // starting uses.
     void resolve(const StepProblem& problem, std::span<const Response> responses,
                  std::span<const ContactRows> rows, float h);
 
@@ -28,7 +30,7 @@ private:
     struct Strike {
         std::uint32_t row = 0;
         std::array<bool, 4> strikes = {};
-        std::array<float, 4> target = {};   // n.v_rel after the impact
+        std::array<float, 4> target = {};  // n.v_rel after the impact
         std::array<float, 4> normal_impulse = {};
         std::array<Vec3, 4> friction_impulse = {};
     };
@@ -41,7 +43,8 @@ private:
     std::vector<Strike> strikes_;
 };
 
-// The u' above: the relative speed after a bounce of restitution e, from relative speed u < 0 at separation s.
+// The u' above: the relative speed after a bounce of restitution e, from relative speed u < 0 at
+// separation s.
 float rebound_speed(float u, float s, float a, float h, float e);
 
 }  // namespace cairn

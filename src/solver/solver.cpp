@@ -13,11 +13,13 @@ SolverState make_solver(Solver solver) {
 }
 
 int default_substeps(Solver solver) {
-    return std::visit([](const auto& method) { return method.default_substeps; }, make_solver(solver));
+    return std::visit([](const auto& method) { return method.default_substeps; },
+                      make_solver(solver));
 }
 
 int default_iterations(Solver solver) {
-    return std::visit([](const auto& method) { return method.default_iterations; }, make_solver(solver));
+    return std::visit([](const auto& method) { return method.default_iterations; },
+                      make_solver(solver));
 }
 
 }  // namespace cairn

@@ -1,5 +1,6 @@
 #pragma once
-// The closed set of methods: what each must offer, and the one that a world holds. A method is a value.
+// The closed set of methods: what each must offer, and the one that a world holds. A method is a
+// value.
 
 #include <concepts>
 #include <variant>
@@ -11,7 +12,8 @@
 namespace cairn {
 
 template <class Method>
-concept SolverMethod = std::copyable<Method> && requires(Method method, const StepProblem& problem) {
+concept SolverMethod = std::copyable<Method> &&
+    requires(Method method, const StepProblem& problem) {
     { Method::default_substeps } -> std::convertible_to<int>;
     { Method::default_iterations } -> std::convertible_to<int>;
     method.advance(problem);

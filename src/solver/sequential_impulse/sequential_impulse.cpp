@@ -8,8 +8,8 @@ namespace cairn {
 
 namespace {
 
-// Share of the overlap removed by one pass of positional correction, and how many passes a substep makes.
-// More or larger passes part overlapping bodies sooner and let a stack jitter.
+// Share of the overlap removed by one pass of positional correction, and how many passes a substep
+// makes. More or larger passes part overlapping bodies sooner and let a stack jitter.
 constexpr float correction_share = 0.2f;
 constexpr int correction_passes = 4;
 // Overlap that is left alone, as a share of the smaller shape: contacts at rest stay contacts.
@@ -29,8 +29,8 @@ void SequentialImpulse::advance(const StepProblem& problem) {
         refresh_rows(problem, responses_, rows_);
         impacts_.resolve(problem, responses_, rows_, h);
         for (const std::uint32_t i : problem.moving) {
-            integrate_velocity(problem.motions[i], problem.inertias[i], problem.drives[i], responses_[i],
-                               problem.gravity, h);
+            integrate_velocity(problem.motions[i], problem.inertias[i], problem.drives[i],
+                               responses_[i], problem.gravity, h);
         }
         load_impulses(problem, h);
         warm_start(problem);
@@ -63,8 +63,8 @@ void SequentialImpulse::load_impulses(const StepProblem& problem, float h) {
         }
         sum.rolling = clamp_length(h * without_normal(contact.rolling_torque, row.normal),
                                    row.rolling_friction * load);
-        sum.spinning =
-            clamp(h * contact.spinning_torque, -row.spinning_friction * load, row.spinning_friction * load);
+        sum.spinning = clamp(h * contact.spinning_torque, -row.spinning_friction * load,
+                             row.spinning_friction * load);
     }
 }
 
@@ -146,12 +146,14 @@ void SequentialImpulse::correct_positions(const StepProblem& problem) {
                 const float excess = -(s + slop(row));
                 if (!(excess > 0)) continue;
                 corrected = true;
-                const float wanted = min(correction_share * excess, largest_correction_share * row.size);
+                const float wanted =
+                    min(correction_share * excess, largest_correction_share * row.size);
                 const Vec3 push = (wanted * p.normal_mass) * row.normal;
                 a.displacement -= multiply(response_a.inverse_mass, push);
                 b.displacement += multiply(response_b.inverse_mass, push);
                 if (response_a.inverse_mass != Vec3{}) {
-                    a.rotation = turn(a.rotation, -(response_a.inverse_inertia * cross(p.r_a, push)));
+                    a.rotation =
+                        turn(a.rotation, -(response_a.inverse_inertia * cross(p.r_a, push)));
                 }
                 if (response_b.inverse_mass != Vec3{}) {
                     b.rotation = turn(b.rotation, response_b.inverse_inertia * cross(p.r_b, push));

@@ -1,18 +1,19 @@
 #pragma once
-// Sequential impulses: contact velocities by projected Gauss-Seidel over accumulated impulses, warm started
-// from the last step, then overlap removed on positions alone.
+// Sequential impulses: contact velocities by projected Gauss-Seidel over accumulated impulses, warm
+// started from the last step, then overlap removed on positions alone.
 //
 // One substep of length h:
 //   impacts                  bounces, before any force acts (solver/impact.h)
 //   velocities               v += h a, w += h I^-1 torque
 //   warm start               the last substep's impulses
-//   iterations, each:        friction of every contact, then its normal impulses; sweeps alternate in direction
-//   poses                    x += h v, free rotation
-//   positional correction    pseudo impulses on poses; velocities never learn of it
+//   iterations, each:        friction of every contact, then its normal impulses; sweeps alternate
+//   in direction poses                    x += h v, free rotation positional correction    pseudo
+//   impulses on poses; velocities never learn of it
 //
-// Rows at a point: n.v_rel >= -max(s, 0)/h with impulse l >= 0; across the normal |l_t| <= mu l against v_t,
-// on a circle: l_t <- clamp(l_t - m_t v_t), with one mass m_t for all directions, whose fixed point opposes the
-// sliding exactly (a 2x2 block solve would favour the stiff direction).
+// Rows at a point: n.v_rel >= -max(s, 0)/h with impulse l >= 0; across the normal |l_t| <= mu l
+// against v_t, on a circle: l_t <- clamp(l_t - m_t v_t), with one mass m_t for all directions,
+// whose fixed point opposes the sliding exactly (a 2x2 block solve would favour the stiff
+// direction).
 //
 // Sources: Catto, "Iterative Dynamics with Temporal Coherence", GDC 2005, and "Modeling and Solving
 // Constraints", GDC 2009. Departures: the circle, the even sharing of loads, restitution apart.

@@ -8,8 +8,8 @@ namespace cairn {
 
 namespace {
 
-// An overlap that was there before the substep is removed at this many of the smaller shape's sizes a second
-// of its own falling time sqrt(size/g): similar scenes at two scales do alike.
+// An overlap that was there before the substep is removed at this many of the smaller shape's sizes
+// a second of its own falling time sqrt(size/g): similar scenes at two scales do alike.
 constexpr float push_speed_share = 0.5f;
 // Where there is no gravity to measure by: shares of the size a step.
 constexpr float push_share_a_step = 0.02f;
@@ -52,8 +52,8 @@ void Xpbd::predict(const StepProblem& problem, float h) {
         }
     }
     for (const std::uint32_t i : problem.moving) {
-        integrate_velocity(problem.motions[i], problem.inertias[i], problem.drives[i], responses_[i],
-                           problem.gravity, h);
+        integrate_velocity(problem.motions[i], problem.inertias[i], problem.drives[i],
+                           responses_[i], problem.gravity, h);
     }
     // Slips are those of the predicted velocities, seen along the arms of the substep's start.
     for (std::size_t k = 0; k < rows_.size(); ++k) {
@@ -113,8 +113,8 @@ void Xpbd::correct_positions(const StepProblem& problem, float h, bool backward)
             const PointRow& p = row.points[i];
             const float c = sum.separation[i] + dot(n, moved(p));
             // (-c - a l) / (K + a), written with m = 1/K.
-            const float change =
-                p.normal_mass * (-c - compliance * sum.normal[i]) / (1.0f + compliance * p.normal_mass);
+            const float change = p.normal_mass * (-c - compliance * sum.normal[i]) /
+                                 (1.0f + compliance * p.normal_mass);
             const float total = max(0, sum.normal[i] + change);
             push(p, (total - sum.normal[i]) * n);
             sum.normal[i] = total;
@@ -160,14 +160,17 @@ void Xpbd::solve_velocities(const StepProblem& problem, float h) {
             if (!(sum.normal[i] > 0)) continue;
             const PointRow& p = row.points[i];
             load += sum.normal[i];
-            // No faster apart than before: what is faster, the push has made. No impulse in all below zero.
+            // No faster apart than before: what is faster, the push has made. No impulse in all
+            // below zero.
             const float u = dot(n, relative_velocity(a, p.r_a, b, p.r_b));
             const float allowed = max(0, sum.approach[i]);
-            const float change = max(p.normal_mass * (min(u, allowed) - u), -inverse_h * sum.normal[i]);
+            const float change =
+                max(p.normal_mass * (min(u, allowed) - u), -inverse_h * sum.normal[i]);
             apply_impulse(a, response_a, p.r_a, b, response_b, p.r_b, change * n);
             sum.normal[i] += h * change;
 
-            const Vec3 v = without_normal(relative_velocity(a, p.r_a, b, p.r_b), n) + row.surface_velocity;
+            const Vec3 v =
+                without_normal(relative_velocity(a, p.r_a, b, p.r_b), n) + row.surface_velocity;
             const Vec3 total = clamp_length(sum.friction[i] - (h * p.tangent_mass) * v,
                                             row.friction * max(sum.normal[i], 0));
             apply_impulse(a, response_a, p.r_a, b, response_b, p.r_b,

@@ -1,24 +1,27 @@
 #pragma once
-// XPBD for rigid bodies: many small substeps, each of which predicts, corrects positions, and takes velocities
-// from the corrections.
+// XPBD for rigid bodies: many small substeps, each of which predicts, corrects positions, and takes
+// velocities from the corrections.
 //
 // One substep of length h:
 //   impacts              bounces as a velocity pass, before any force acts (solver/impact.h)
 //   predict              v += h a, x += h v; w += h I^-1 torque, free rotation
-//   correct positions    C = s where s < 0: dl = (-C - a l) / (K(n) + a), a = compliance/h^2, l >= 0 summed
-//                        over the substep; static friction at once after it: the sliding since the substep
-//                        began is taken back by l_t, |l_t| <= mu l
+//   correct positions    C = s where s < 0: dl = (-C - a l) / (K(n) + a), a = compliance/h^2, l >=
+//   0 summed
+//                        over the substep; static friction at once after it: the sliding since the
+//                        substep began is taken back by l_t, |l_t| <= mu l
 //   velocities           v += dx/h, w += dtheta/h for the corrections dx, dtheta
-//   velocity pass        the speed that pushing out has made is taken away; dynamic friction, with what
+//   velocity pass        the speed that pushing out has made is taken away; dynamic friction, with
+//   what
 //                        is left of mu l
 //
-// Corrections are kept apart from the prediction, so velocities never come from a difference of rounded
-// positions; both bodies are corrected at one common point, so momentum is conserved.
+// Corrections are kept apart from the prediction, so velocities never come from a difference of
+// rounded positions; both bodies are corrected at one common point, so momentum is conserved.
 //
-// Source: Mueller, Macklin, Chentanez, Jeschke, Kim, "Detailed Rigid Body Simulation with Extended Position
-// Based Dynamics", SCA 2020. Departures: friction on a circle, accumulated, in place of all or nothing (its
-// dynamic bound h mu f_n lacks the factor w_1 + w_2, which the accumulated form does not need); rotation by
-// exponential map; an overlap from before the substep is removed at a limited speed.
+// Source: Mueller, Macklin, Chentanez, Jeschke, Kim, "Detailed Rigid Body Simulation with Extended
+// Position Based Dynamics", SCA 2020. Departures: friction on a circle, accumulated, in place of
+// all or nothing (its dynamic bound h mu f_n lacks the factor w_1 + w_2, which the accumulated form
+// does not need); rotation by exponential map; an overlap from before the substep is removed at a
+// limited speed.
 
 #include <vector>
 

@@ -1,0 +1,166 @@
+// Pairs, axes and points from a world's bodies; see detect.h.
+
+#include "world/detect.h"
+
+#include "contact/build_manifold.h"
+#include "narrow/find_axis.h"
+#include "shape/bounds.h"
+
+namespace cairn {
+
+namespace {
+
+// A contact is kept while its surfaces are this near, as a share of the smaller shape, so that one
+// which trembles keeps its impulses.
+constexpr float skin_share = 0.01f;
+
+bool agree(const CollisionFilter& a, const CollisionFilter& b) {
+    if (a.group == b.group && a.group != 0) return a.group > 0;
+    return (a.mask & b.category) != 0 && (b.mask & a.category) != 0;
+}
+
+bool is_round(const Geometry& geometry) { return std::holds_alternative<Sphere>(geometry); }
+bool is_plane(const Geometry& geometry) { return std::holds_alternative<Plane>(geometry); }
+
+// From the body's center of mass to the shape's origin, along world axes.
+Vec3 shape_offset(const WorldState& world, const ShapeRecord& shape) {
+    return rotate(world.motions[shape.body].rotation,
+                  shape.def.local_pose.position - world.bodies[shape.body].center_of_mass);
+}
+
+Quat shape_rotation(const WorldState& world, const ShapeRecord& shape) {
+    return world.motions[shape.body].rotation * shape.def.local_pose.rotation;
+}
+
+// How far a shape's points may travel in dt seconds, beyond the smooth path of its center of mass.
+float turning_reach(const WorldState& world, const ShapeRecord& shape, float dt) {
+    const BodyMotion& motion = world.motions[shape.body];
+    if (motion.angular_velocity == Vec3{}) return 0;
+    // Turning by an angle moves no point by more than twice its arm.
+    return min(dt * length(motion.angular_velocity), 2.0f) * shape.reach;
+}
+
+float fall_in(const WorldState& world, float dt) {
+    return length(world.settings.gravity) * dt * dt;
+}
+
+// An arm that ends at `point` (from the center of mass, world axes): in two parts for a round
+// shape, whose touching point stays below its center.
+Arm make_arm(const WorldState& world, const ShapeRecord& shape, Vec3 point) {
+    const Quat rotation = world.motions[shape.body].rotation;
+    if (!is_round(shape.def.geometry)) return {rotate_inverse(rotation, point), {}};
+    const Vec3 center = shape.def.local_pose.position - world.bodies[shape.body].center_of_mass;
+    return {center, point - rotate(rotation, center)};
+}
+
+}  // namespace
+
+void update_proxies(const WorldState& world, double dt, std::vector<Proxy>& proxies) {
+    proxies.clear();
+    const auto h = float(dt);
+    for (std::uint32_t slot = 0; slot < world.shapes.size(); ++slot) {
+        const ShapeRecord& shape = world.shapes[slot];
+        if (!shape.alive) continue;
+        const std::uint32_t body = shape.body;
+        const Quat rotation = shape_rotation(world, shape);
+        const Position center = world.positions[body] + shape_offset(world, shape);
+        Vec3 half = bounds_half_extents(shape.def.geometry, to_matrix(rotation));
+        const bool moves =
+            world.drives[body].kind != BodyKind::Static && !world.bodies[body].frozen;
+        if (!is_plane(shape.def.geometry)) {
+            float margin = skin_share * shape.size;
+            if (moves) {
+                const float speed = length(world.motions[body].linear_velocity);
+                margin += h * speed + turning_reach(world, shape, h) + fall_in(world, h);
+            }
+            half = half + Vec3{margin, margin, margin};
+        }
+        proxies.push_back({box_around(center, half), slot, moves});
+    }
+}
+
+void find_candidate_pairs(const WorldState& world, std::span<const Proxy> proxies,
+                          std::vector<Pair>& pairs) {
+    find_pairs_by_brute_force(proxies, pairs);
+    std::erase_if(pairs, [&](const Pair& pair) {
+        const std::uint32_t a = world.shapes[pair.a].body;
+        const std::uint32_t b = world.shapes[pair.b].body;
+        // Kinematic bodies have nothing to say to what cannot move either.
+        const bool can_push =
+            world.inertias[a].inverse_mass > 0 || world.inertias[b].inverse_mass > 0;
+        return a == b || !can_push || !agree(world.bodies[a].filter, world.bodies[b].filter);
+    });
+}
+
+void describe_contact(const WorldState& world, Contact& contact) {
+    const ShapeRecord& a = world.shapes[contact.shape_a];
+    const ShapeRecord& b = world.shapes[contact.shape_b];
+    const Material& material_a = a.def.material;
+    const Material& material_b = b.def.material;
+    contact.body_a = a.body;
+    contact.body_b = b.body;
+    contact.friction = square_root(material_a.friction * material_b.friction);
+    contact.restitution = max(material_a.restitution, material_b.restitution);
+    contact.rolling_friction = max(material_a.rolling_friction, material_b.rolling_friction);
+    contact.spinning_friction = max(material_a.spinning_friction, material_b.spinning_friction);
+    contact.surface_velocity = rotate(world.motions[b.body].rotation, material_b.surface_velocity) -
+                               rotate(world.motions[a.body].rotation, material_a.surface_velocity);
+    contact.size = min(a.size, b.size);
+}
+
+bool find_contact_axis(const WorldState& world, Contact& contact) {
+    const ShapeRecord& a = world.shapes[contact.shape_a];
+    const ShapeRecord& b = world.shapes[contact.shape_b];
+    const Vec3 between = (world.positions[b.body] - world.positions[a.body]) +
+                         (shape_offset(world, b) - shape_offset(world, a));
+    const Quat rotation_a = shape_rotation(world, a);
+    const Pose b_in_a = {rotate_inverse(rotation_a, between),
+                         conjugate(rotation_a) * shape_rotation(world, b)};
+    if (!is_finite(b_in_a.position)) return false;
+    contact.axis = find_axis(a.def.geometry, b.def.geometry, b_in_a,
+                             world.settings.step.narrow_phase, contact.hint);
+    return is_finite(contact.axis.normal) && is_finite(contact.axis.separation);
+}
+
+int build_contact_points(const WorldState& world, Contact& contact, float max_separation,
+                         std::array<ContactPoint, 4>& points) {
+    const ShapeRecord& a = world.shapes[contact.shape_a];
+    const ShapeRecord& b = world.shapes[contact.shape_b];
+    const Vec3 offset_a = shape_offset(world, a);
+    const Vec3 offset_b = shape_offset(world, b);
+    const Vec3 between =
+        (world.positions[b.body] - world.positions[a.body]) + (offset_b - offset_a);
+    const Quat rotation_a = shape_rotation(world, a);
+    const Pose b_in_a = {rotate_inverse(rotation_a, between),
+                         conjugate(rotation_a) * shape_rotation(world, b)};
+    const Manifold manifold =
+        build_manifold(a.def.geometry, b.def.geometry, b_in_a, contact.axis, max_separation);
+
+    contact.normal = normalize_or(rotate(rotation_a, manifold.normal), {0, 1, 0});
+    int count = 0;
+    for (int i = 0; i < manifold.point_count; ++i) {
+        const ManifoldPoint& from = manifold.points[std::size_t(i)];
+        if (!is_finite(from.separation) || !is_finite(from.from_a) || !is_finite(from.from_b))
+            continue;
+        ContactPoint point;
+        point.arm_a = make_arm(world, a, offset_a + rotate(rotation_a, from.from_a));
+        point.arm_b = make_arm(world, b, offset_b + rotate(rotation_a, from.from_b));
+        point.separation = from.separation;
+        point.feature = from.feature;
+        points[std::size_t(count++)] = point;
+    }
+    return count;
+}
+
+float speculative_distance(const WorldState& world, const Contact& contact, double dt) {
+    const auto h = float(dt);
+    const ShapeRecord& a = world.shapes[contact.shape_a];
+    const ShapeRecord& b = world.shapes[contact.shape_b];
+    const Vec3 normal = rotate(shape_rotation(world, a), contact.axis.normal);
+    const Vec3 v = world.motions[b.body].linear_velocity - world.motions[a.body].linear_velocity;
+    const float approach = max(0, -dot(normal, v));
+    return skin_share * contact.size + h * approach + fall_in(world, h) +
+           turning_reach(world, a, h) + turning_reach(world, b, h);
+}
+
+}  // namespace cairn

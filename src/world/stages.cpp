@@ -1,0 +1,234 @@
+// The stages of a step. Each says what it reads and what it writes.
+
+#include "world/stages.h"
+
+#include <chrono>
+
+#include "world/detect.h"
+
+namespace cairn {
+
+namespace {
+
+// Adds the wall time of its own life to one stage of the report. Times are no part of the state.
+class StageTimer {
+public:
+    StageTimer(WorldState& world, Stage stage)
+        : seconds_(world.report.stage_seconds[std::size_t(stage)]), start_(Clock::now()) {}
+    ~StageTimer() { seconds_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
+    StageTimer(const StageTimer&) = delete;
+    StageTimer& operator=(const StageTimer&) = delete;
+
+private:
+    using Clock = std::chrono::steady_clock;
+    double& seconds_;
+    Clock::time_point start_;
+};
+
+// Beyond these, products of two numbers leave binary32 and take everything in touch with them
+// along.
+constexpr float fastest = 1e15f;
+constexpr double farthest = 1e15;
+
+bool is_sound(Vec3 velocity) {
+    return is_finite(velocity) &&
+           max(absolute(velocity).x, max(absolute(velocity).y, absolute(velocity).z)) <= fastest;
+}
+
+bool is_sound(Position p) {
+    const auto within = [](double x) { return x >= -farthest && x <= farthest; };
+    return within(p.x) && within(p.y) && within(p.z);
+}
+
+// Stands the body still for good, where and as it was; the others go on without its impulses.
+void freeze(WorldState& world, std::uint32_t slot, Quantity quantity) {
+    world.bodies[slot].frozen = true;
+    world.inertias[slot] = {};
+    world.motions[slot].linear_velocity = {};
+    world.motions[slot].angular_velocity = {};
+    world.non_finite.push_back(
+        {body_id(world, slot), world.report.step, world.report.time, quantity});
+}
+
+void clear_contact(Contact& contact) {
+    contact.point_count = 0;
+    contact.rolling_torque = {};
+    contact.spinning_torque = 0;
+    contact.rolling_impulse = {};
+    contact.spinning_impulse = 0;
+}
+
+bool is_touching(const Contact& contact) {
+    for (int i = 0; i < contact.point_count; ++i) {
+        const ContactPoint& p = contact.points[std::size_t(i)];
+        if (p.separation <= 0 || p.normal_impulse > 0) return true;
+    }
+    return false;
+}
+
+ContactEvent make_event(const WorldState& world, const Contact& contact, ContactEventKind kind) {
+    return {kind, body_id(world, contact.body_a), body_id(world, contact.body_b),
+            shape_id(world, contact.shape_a), shape_id(world, contact.shape_b)};
+}
+
+}  // namespace
+
+// Reads what the user set; writes the drives and the list of bodies that move, keeps a copy of
+// their motion, and freezes a body whose velocity the step's own forces would take beyond all
+// numbers.
+void apply_changes(WorldState& world, double dt) {
+    world.report.stage_seconds = {};
+    ++world.report.step;
+    world.report.time += dt;
+    world.events.clear();
+    world.last_dt = dt;
+    auto& moving = world.scratch.moving;
+    moving.clear();
+    const auto h = float(dt);
+    for (std::uint32_t slot = 0; slot < world.bodies.size(); ++slot) {
+        BodyRecord& body = world.bodies[slot];
+        BodyMotion& motion = world.motions[slot];
+        BodyDrive& drive = world.drives[slot];
+        motion.displacement = {};
+        if (!body.alive || body.frozen || drive.kind == BodyKind::Static) continue;
+        drive.force = body.constant_force + body.step_force;
+        drive.torque = body.constant_torque + body.step_torque;
+        body.step_force = body.step_torque = {};
+        const BodyInertia& inertia = world.inertias[slot];
+        const Vec3 push =
+            drive.gravity_scale * world.settings.gravity + inertia.inverse_mass * drive.force;
+        const Vec3 twist =
+            rotate(motion.rotation,
+                   inertia.inverse_inertia * rotate_inverse(motion.rotation, drive.torque));
+        if (!is_sound(motion.linear_velocity + h * push)) {
+            freeze(world, slot, Quantity::LinearVelocity);
+        } else if (!is_sound(motion.angular_velocity + h * twist)) {
+            freeze(world, slot, Quantity::AngularVelocity);
+        } else {
+            moving.push_back(slot);
+        }
+    }
+    world.scratch.before = world.motions;
+}
+
+// Reads poses and velocities; renews the list of contacts, ends those whose boxes parted.
+void find_pairs(WorldState& world, double dt) {
+    const StageTimer timer(world, Stage::FindPairs);
+    update_proxies(world, dt, world.scratch.proxies);
+    find_candidate_pairs(world, world.scratch.proxies, world.scratch.pairs);
+    world.contacts.begin_renewal();
+    for (const Pair& pair : world.scratch.pairs) {
+        const std::uint32_t slot = world.contacts.renew(pair.a, pair.b);
+        describe_contact(world, world.contacts[slot]);
+    }
+    world.contacts.end_renewal([&](const Contact& ended) {
+        if (ended.touching) world.events.push_back(make_event(world, ended, ContactEventKind::End));
+    });
+    world.report.pair_count = world.scratch.pairs.size();
+}
+
+// Reads the listed pairs; writes each contact's axis.
+void find_axes(WorldState& world) {
+    const StageTimer timer(world, Stage::FindAxes);
+    for (const std::uint32_t slot : world.contacts.listed()) {
+        Contact& contact = world.contacts[slot];
+        if (!find_contact_axis(world, contact))
+            contact.axis.separation = std::numeric_limits<float>::infinity();
+    }
+}
+
+// Reads axes; writes each contact's normal and points, and lists the contacts that have any.
+void build_manifolds(WorldState& world, double dt) {
+    const StageTimer timer(world, Stage::BuildManifolds);
+    auto& active = world.scratch.active;
+    active.clear();
+    std::size_t point_count = 0;
+    for (const std::uint32_t slot : world.contacts.listed()) {
+        Contact& contact = world.contacts[slot];
+        const float within = speculative_distance(world, contact, dt);
+        std::array<ContactPoint, 4> points;
+        int count = 0;
+        if (contact.axis.separation <= within)
+            count = build_contact_points(world, contact, within, points);
+        match_points(contact, std::span(points).first(std::size_t(count)));
+        contact.rolling_impulse = {};
+        contact.spinning_impulse = 0;
+        if (count == 0) {
+            clear_contact(contact);
+        } else {
+            active.push_back(slot);
+            point_count += std::size_t(count);
+        }
+    }
+    world.report.contact_count = point_count;
+}
+
+// Reads everything above; writes velocities, rotations, displacements and impulses.
+void advance(WorldState& world, double dt) {
+    const StageTimer timer(world, Stage::Solve);
+    const StepSettings& step = world.settings.step;
+    const StepProblem problem = {
+        .motions = world.motions,
+        .inertias = world.inertias,
+        .drives = world.drives,
+        .moving = world.scratch.moving,
+        .contacts = world.contacts.slots(),
+        .active = world.scratch.active,
+        .gravity = world.settings.gravity,
+        .dt = dt,
+        .substeps = step.substeps > 0 ? step.substeps : default_substeps(step.solver),
+        .iterations = step.iterations > 0 ? step.iterations : default_iterations(step.solver),
+        .restitution_threshold = world.settings.restitution_threshold,
+        .contact_compliance = step.contact_compliance,
+    };
+    std::visit([&](auto& method) { method.advance(problem); }, world.solver);
+}
+
+// Reads displacements; writes positions. A body whose numbers went wrong goes back to the step's
+// start.
+void move_bodies(WorldState& world) {
+    const StageTimer timer(world, Stage::Finish);
+    bool any_frozen = false;
+    for (const std::uint32_t slot : world.scratch.moving) {
+        BodyMotion& motion = world.motions[slot];
+        const Position moved = world.positions[slot] + motion.displacement;
+        std::optional<Quantity> wrong;
+        if (!is_sound(motion.linear_velocity))
+            wrong = Quantity::LinearVelocity;
+        else if (!is_sound(motion.angular_velocity))
+            wrong = Quantity::AngularVelocity;
+        else if (!is_finite(motion.displacement) || !is_sound(moved))
+            wrong = Quantity::Position;
+        else if (!is_finite(motion.rotation))
+            wrong = Quantity::Rotation;
+        if (!wrong) {
+            world.positions[slot] = moved;
+            continue;
+        }
+        motion = world.scratch.before[slot];
+        freeze(world, slot, *wrong);
+        any_frozen = true;
+    }
+    if (!any_frozen) return;
+    for (const std::uint32_t slot : world.scratch.active) {
+        Contact& contact = world.contacts[slot];
+        if (world.bodies[contact.body_a].frozen || world.bodies[contact.body_b].frozen)
+            clear_contact(contact);
+    }
+}
+
+// Reads impulses; writes the events of contacts that began or ended.
+void report_contacts(WorldState& world) {
+    const StageTimer timer(world, Stage::Finish);
+    for (const std::uint32_t slot : world.contacts.listed()) {
+        Contact& contact = world.contacts[slot];
+        const bool touching = is_touching(contact);
+        if (touching != contact.touching) {
+            const auto kind = touching ? ContactEventKind::Begin : ContactEventKind::End;
+            world.events.push_back(make_event(world, contact, kind));
+        }
+        contact.touching = touching;
+    }
+}
+
+}  // namespace cairn

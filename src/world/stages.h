@@ -1,0 +1,16 @@
+#pragma once
+// The stages that step.cpp lists, in their order.
+
+#include "world/world_state.h"
+
+namespace cairn {
+
+void apply_changes(WorldState& world, double dt);
+void find_pairs(WorldState& world, double dt);
+void find_axes(WorldState& world);
+void build_manifolds(WorldState& world, double dt);
+void advance(WorldState& world, double dt);
+void move_bodies(WorldState& world);
+void report_contacts(WorldState& world);
+
+}  // namespace cairn

@@ -1,0 +1,558 @@
+// The public face of the world: checks what it is given, then changes or reads the state.
+
+#include "cairn/world.h"
+
+#include "base/float_environment.h"
+#include "shape/bounds.h"
+#include "shape/mass.h"
+#include "world/step.h"
+#include "world/validate.h"
+#include "world/world_state.h"
+
+namespace cairn {
+
+namespace {
+
+Error stale(const char* call, const char* kind) {
+    return {ErrorCode::InvalidId, std::string(call) + ": the id names no " + kind +
+                                      " of this world; allowed: the id of one that exists"};
+}
+
+Error tell(const WorldState& world, Error error) {
+    if (world.on_error) world.on_error(error);
+    return error;
+}
+
+Error tell(const WorldState& world, const char* call, const Error& refusal) {
+    return tell(world, {refusal.code, std::string(call) + ": " + refusal.message});
+}
+
+bool names(const WorldState& world, BodyId id) {
+    return id.index < world.bodies.size() && world.bodies[id.index].alive &&
+           world.bodies[id.index].generation == id.generation;
+}
+
+bool names(const WorldState& world, ShapeId id) {
+    return id.index < world.shapes.size() && world.shapes[id.index].alive &&
+           world.shapes[id.index].generation == id.generation;
+}
+
+bool can_move(const WorldState& world, std::uint32_t slot) {
+    return world.drives[slot].kind == BodyKind::Dynamic && !world.bodies[slot].frozen;
+}
+
+// Mass properties from what the user gave and the shapes weigh; an error where a dynamic body gets
+// none.
+Result<MassProperties> resolve_mass(const BodyRecord& body, BodyKind kind,
+                                    std::span<const ShapeDef> shapes) {
+    if (body.given_mass_properties) return *body.given_mass_properties;
+    MassProperties properties = combined_mass_properties(shapes);
+    if (body.given_mass && properties.mass > 0) {
+        const double scale = double(*body.given_mass) / double(properties.mass);
+        SymmetricMat3& i = properties.inertia;
+        for (float* entry : {&i.xx, &i.yy, &i.zz, &i.xy, &i.xz, &i.yz})
+            *entry = float(scale * double(*entry));
+        properties.mass = *body.given_mass;
+    }
+    if (kind != BodyKind::Dynamic) return properties;
+    if (shapes.empty()) {
+        return Error{ErrorCode::OutOfRange,
+                     "shapes: none, and no mass_properties; allowed: at least one of the two on a "
+                     "dynamic body"};
+    }
+    if (const Refusal r = check_mass_properties("the shapes' mass properties", properties))
+        return *r;
+    return properties;
+}
+
+std::vector<ShapeDef> shape_defs(const WorldState& world, const BodyRecord& body) {
+    std::vector<ShapeDef> defs;
+    for (const std::uint32_t slot : body.shapes) defs.push_back(world.shapes[slot].def);
+    return defs;
+}
+
+// Gives the body its mass properties; its origin stays where it is, its points keep their
+// velocities.
+void assign_mass(WorldState& world, std::uint32_t slot, const MassProperties& properties) {
+    BodyRecord& body = world.bodies[slot];
+    BodyMotion& motion = world.motions[slot];
+    const Vec3 shift = rotate(motion.rotation, properties.center_of_mass - body.center_of_mass);
+    world.positions[slot] = world.positions[slot] + shift;
+    motion.linear_velocity += cross(motion.angular_velocity, shift);
+    body.center_of_mass = properties.center_of_mass;
+    body.mass_properties = properties;
+    world.inertias[slot] = can_move(world, slot) ? make_inertia(properties) : BodyInertia{};
+    for (const std::uint32_t s : body.shapes) {
+        ShapeRecord& shape = world.shapes[s];
+        shape.reach = length(shape.def.local_pose.position - body.center_of_mass) +
+                      bounding_radius(shape.def.geometry);
+    }
+}
+
+std::uint32_t take_slot(std::vector<std::uint32_t>& free, std::size_t size) {
+    if (free.empty()) return std::uint32_t(size);
+    const std::uint32_t slot = free.back();
+    free.pop_back();
+    return slot;
+}
+
+std::uint32_t add_shape(WorldState& world, std::uint32_t body, const ShapeDef& def) {
+    const std::uint32_t slot = take_slot(world.free_shapes, world.shapes.size());
+    if (slot == world.shapes.size()) world.shapes.emplace_back();
+    ShapeRecord& shape = world.shapes[slot];
+    shape.alive = true;
+    shape.body = body;
+    shape.def = def;
+    shape.def.local_pose.rotation = normalize(def.local_pose.rotation);
+    if (auto* plane = std::get_if<Plane>(&shape.def.geometry))
+        plane->normal = normalize_or(plane->normal, {0, 1, 0});
+    shape.size = smallest_half_extent(shape.def.geometry);
+    world.bodies[body].shapes.push_back(slot);
+    return slot;
+}
+
+void remove_shape(WorldState& world, std::uint32_t slot) {
+    ShapeRecord& shape = world.shapes[slot];
+    std::erase(world.bodies[shape.body].shapes, slot);
+    shape.alive = false;
+    ++shape.generation;
+    world.free_shapes.push_back(slot);
+}
+
+// Contacts of what has just been removed, or is somewhere else now, end at once, so that a slot
+// used again inherits no impulses.
+void forget_contacts(WorldState& world, std::uint32_t body) {
+    world.contacts.remove_if(
+        [&](const Contact& c) { return c.body_a == body || c.body_b == body; });
+}
+
+}  // namespace
+
+World::World() : state_(std::make_unique<WorldState>()) {}
+World::World(const World& other) : state_(std::make_unique<WorldState>(*other.state_)) {}
+World::World(World&& other) noexcept = default;
+World& World::operator=(const World& other) {
+    if (this != &other) *state_ = *other.state_;
+    return *this;
+}
+World& World::operator=(World&& other) noexcept = default;
+World::~World() = default;
+
+Result<World> World::create(const WorldSettings& settings) {
+    if (const Refusal r = check_settings(settings)) return *r;
+    World world;
+    world.state_->settings = settings;
+    world.state_->solver = make_solver(settings.step.solver);
+    return world;
+}
+
+void World::set_error_handler(std::function<void(const Error&)> handler) {
+    state_->on_error = std::move(handler);
+}
+
+const WorldSettings& World::settings() const { return state_->settings; }
+
+Status World::set_settings(const WorldSettings& settings) {
+    if (const Refusal r = check_settings(settings)) return tell(*state_, "set_settings", *r);
+    if (settings.step.solver != state_->settings.step.solver)
+        state_->solver = make_solver(settings.step.solver);
+    state_->settings = settings;
+    return Done{};
+}
+
+Result<BodyId> World::create_body(const BodyDef& def) {
+    const FloatEnvironment ieee;
+    WorldState& world = *state_;
+    if (const Refusal r = check_body(def)) return tell(world, "create_body", *r);
+    BodyRecord wanted;
+    wanted.given_mass = def.mass;
+    wanted.given_mass_properties = def.mass_properties;
+    const Result<MassProperties> mass = resolve_mass(wanted, def.kind, def.shapes);
+    if (!mass) return tell(world, "create_body", mass.error());
+
+    const std::uint32_t slot = take_slot(world.free_bodies, world.bodies.size());
+    if (slot == world.bodies.size()) {
+        world.bodies.emplace_back();
+        world.positions.emplace_back();
+        world.motions.emplace_back();
+        world.inertias.emplace_back();
+        world.drives.emplace_back();
+    }
+    BodyRecord& body = world.bodies[slot];
+    wanted.generation = body.generation;
+    wanted.alive = true;
+    wanted.constant_force = def.force;
+    wanted.constant_torque = def.torque;
+    wanted.filter = def.collision;
+    body = std::move(wanted);
+    ++world.body_count;
+
+    world.drives[slot] = {.kind = def.kind,
+                          .gyroscopic = def.gyroscopic,
+                          .lock = def.lock,
+                          .gravity_scale = def.gravity_scale,
+                          .linear_damping = def.linear_damping,
+                          .angular_damping = def.angular_damping};
+    world.positions[slot] = def.position;
+    world.motions[slot] = {.rotation = normalize(def.rotation)};
+    for (const ShapeDef& shape : def.shapes) add_shape(world, slot, shape);
+    assign_mass(world, slot, *mass);
+    // Given for the center of mass, and nothing moves that is static.
+    if (def.kind != BodyKind::Static) {
+        world.motions[slot].linear_velocity = def.linear_velocity;
+        world.motions[slot].angular_velocity = def.angular_velocity;
+    }
+    return body_id(world, slot);
+}
+
+Status World::destroy_body(BodyId id) {
+    WorldState& world = *state_;
+    if (!names(world, id)) return tell(world, stale("destroy_body", "body"));
+    BodyRecord& body = world.bodies[id.index];
+    while (!body.shapes.empty()) remove_shape(world, body.shapes.back());
+    forget_contacts(world, id.index);
+    const std::uint32_t generation = body.generation + 1;
+    body = {};
+    body.generation = generation;
+    world.motions[id.index] = {};
+    world.inertias[id.index] = {};
+    world.drives[id.index] = {};
+    world.free_bodies.push_back(id.index);
+    --world.body_count;
+    return Done{};
+}
+
+Result<ShapeId> World::create_shape(BodyId id, const ShapeDef& def) {
+    const FloatEnvironment ieee;
+    WorldState& world = *state_;
+    if (!names(world, id)) return tell(world, stale("create_shape", "body"));
+    const BodyKind kind = world.drives[id.index].kind;
+    if (const Refusal r = check_shape("shape", def, kind)) return tell(world, "create_shape", *r);
+    std::vector<ShapeDef> defs = shape_defs(world, world.bodies[id.index]);
+    defs.push_back(def);
+    const Result<MassProperties> mass = resolve_mass(world.bodies[id.index], kind, defs);
+    if (!mass) return tell(world, "create_shape", mass.error());
+    const std::uint32_t slot = add_shape(world, id.index, def);
+    assign_mass(world, id.index, *mass);
+    return shape_id(world, slot);
+}
+
+Status World::destroy_shape(ShapeId id) {
+    const FloatEnvironment ieee;
+    WorldState& world = *state_;
+    if (!names(world, id)) return tell(world, stale("destroy_shape", "shape"));
+    const std::uint32_t slot = world.shapes[id.index].body;
+    BodyRecord& body = world.bodies[slot];
+    std::vector<ShapeDef> defs;
+    for (const std::uint32_t s : body.shapes) {
+        if (s != id.index) defs.push_back(world.shapes[s].def);
+    }
+    const Result<MassProperties> mass = resolve_mass(body, world.drives[slot].kind, defs);
+    if (!mass) return tell(world, "destroy_shape", mass.error());
+    remove_shape(world, id.index);
+    world.contacts.remove_if(
+        [&](const Contact& c) { return c.shape_a == id.index || c.shape_b == id.index; });
+    assign_mass(world, slot, *mass);
+    return Done{};
+}
+
+bool World::is_valid(BodyId body) const { return names(*state_, body); }
+bool World::is_valid(ShapeId shape) const { return names(*state_, shape); }
+std::size_t World::body_count() const { return state_->body_count; }
+
+std::vector<BodyId> World::bodies() const {
+    std::vector<BodyId> ids;
+    ids.reserve(state_->body_count);
+    for (std::uint32_t slot = 0; slot < state_->bodies.size(); ++slot) {
+        if (state_->bodies[slot].alive) ids.push_back(body_id(*state_, slot));
+    }
+    return ids;
+}
+
+std::vector<ShapeId> World::shapes(BodyId id) const {
+    std::vector<ShapeId> ids;
+    if (!names(*state_, id)) {
+        tell(*state_, stale("shapes", "body"));
+        return ids;
+    }
+    for (const std::uint32_t slot : state_->bodies[id.index].shapes)
+        ids.push_back(shape_id(*state_, slot));
+    return ids;
+}
+
+ShapeDef World::shape(ShapeId id) const {
+    if (names(*state_, id)) return state_->shapes[id.index].def;
+    tell(*state_, stale("shape", "shape"));
+    return {};
+}
+
+BodyId World::body_of(ShapeId id) const {
+    if (names(*state_, id)) return body_id(*state_, state_->shapes[id.index].body);
+    tell(*state_, stale("body_of", "shape"));
+    return {};
+}
+
+BodyState World::state(BodyId id) const {
+    const FloatEnvironment ieee;
+    const WorldState& world = *state_;
+    if (!names(world, id)) {
+        tell(world, stale("state", "body"));
+        return {};
+    }
+    const BodyMotion& motion = world.motions[id.index];
+    return {.position = origin_position(world, id.index),
+            .center_of_mass = world.positions[id.index],
+            .rotation = motion.rotation,
+            .linear_velocity = motion.linear_velocity,
+            .angular_velocity = motion.angular_velocity,
+            .kind = world.drives[id.index].kind,
+            .asleep = false,
+            .frozen = world.bodies[id.index].frozen};
+}
+
+Position World::position(BodyId id) const { return state(id).position; }
+Quat World::rotation(BodyId id) const { return state(id).rotation; }
+Vec3 World::linear_velocity(BodyId id) const { return state(id).linear_velocity; }
+Vec3 World::angular_velocity(BodyId id) const { return state(id).angular_velocity; }
+
+MassProperties World::mass_properties(BodyId id) const {
+    const WorldState& world = *state_;
+    if (!names(world, id)) {
+        tell(world, stale("mass_properties", "body"));
+        return {};
+    }
+    const MassProperties& properties = world.bodies[id.index].mass_properties;
+    if (world.drives[id.index].kind == BodyKind::Dynamic) return properties;
+    return {.mass = 0, .center_of_mass = properties.center_of_mass, .inertia = {}};
+}
+
+Status World::set_pose(BodyId id, const Position& position, const Quat& rotation) {
+    const FloatEnvironment ieee;
+    WorldState& world = *state_;
+    if (!names(world, id)) return tell(world, stale("set_pose", "body"));
+    if (const Refusal r = check_position("position", position)) return tell(world, "set_pose", *r);
+    if (const Refusal r = check_rotation("rotation", rotation)) return tell(world, "set_pose", *r);
+    BodyRecord& body = world.bodies[id.index];
+    world.motions[id.index].rotation = normalize(rotation);
+    world.positions[id.index] =
+        position + rotate(world.motions[id.index].rotation, body.center_of_mass);
+    if (body.frozen) {
+        body.frozen = false;
+        world.inertias[id.index] =
+            can_move(world, id.index) ? make_inertia(body.mass_properties) : BodyInertia{};
+    }
+    forget_contacts(world, id.index);
+    return Done{};
+}
+
+Status World::set_linear_velocity(BodyId id, const Vec3& velocity) {
+    WorldState& world = *state_;
+    if (!names(world, id)) return tell(world, stale("set_linear_velocity", "body"));
+    if (const Refusal r = check_finite("velocity", velocity))
+        return tell(world, "set_linear_velocity", *r);
+    if (world.drives[id.index].kind != BodyKind::Static)
+        world.motions[id.index].linear_velocity = velocity;
+    return Done{};
+}
+
+Status World::set_angular_velocity(BodyId id, const Vec3& velocity) {
+    WorldState& world = *state_;
+    if (!names(world, id)) return tell(world, stale("set_angular_velocity", "body"));
+    if (const Refusal r = check_finite("velocity", velocity))
+        return tell(world, "set_angular_velocity", *r);
+    if (world.drives[id.index].kind != BodyKind::Static)
+        world.motions[id.index].angular_velocity = velocity;
+    return Done{};
+}
+
+Status World::move_kinematic(BodyId id, const Position& position, const Quat& rotation, double dt) {
+    const FloatEnvironment ieee;
+    WorldState& world = *state_;
+    const char* call = "move_kinematic";
+    if (!names(world, id)) return tell(world, stale(call, "body"));
+    if (const Refusal r = check_position("position", position)) return tell(world, call, *r);
+    if (const Refusal r = check_rotation("rotation", rotation)) return tell(world, call, *r);
+    if (const Refusal r = check_positive("dt", dt)) return tell(world, call, *r);
+    if (world.drives[id.index].kind != BodyKind::Kinematic) {
+        return tell(world,
+                    {ErrorCode::OutOfRange,
+                     std::string(call) + ": the body is not kinematic; allowed: kinematic bodies"});
+    }
+    BodyMotion& motion = world.motions[id.index];
+    const Quat target = normalize(rotation);
+    const Position center = position + rotate(target, world.bodies[id.index].center_of_mass);
+    const auto rate = float(1.0 / dt);
+    const Vec3 velocity = rate * (center - world.positions[id.index]);
+    // The turn's logarithm: the shorter way round.
+    Quat turned = target * conjugate(motion.rotation);
+    if (turned.w < 0) turned = {-turned.x, -turned.y, -turned.z, -turned.w};
+    const Vec3 axis = {turned.x, turned.y, turned.z};
+    const float sine = length(axis);
+    const auto angle = float(2 * exact_arc_tangent2(double(sine), double(turned.w)));
+    const Vec3 spin = sine > 0 ? (rate * angle / sine) * axis : Vec3{};
+    if (const Refusal r = check_finite("position", velocity)) return tell(world, call, *r);
+    motion.linear_velocity = velocity;
+    motion.angular_velocity = spin;
+    return Done{};
+}
+
+Status World::set_kind(BodyId id, BodyKind kind) {
+    const FloatEnvironment ieee;
+    WorldState& world = *state_;
+    if (!names(world, id)) return tell(world, stale("set_kind", "body"));
+    BodyRecord& body = world.bodies[id.index];
+    const std::vector<ShapeDef> defs = shape_defs(world, body);
+    for (const ShapeDef& def : defs) {
+        if (const Refusal r = check_shape("shape", def, kind)) return tell(world, "set_kind", *r);
+    }
+    const Result<MassProperties> mass = resolve_mass(body, kind, defs);
+    if (!mass) return tell(world, "set_kind", mass.error());
+    world.drives[id.index].kind = kind;
+    if (kind == BodyKind::Static) {
+        world.motions[id.index].linear_velocity = {};
+        world.motions[id.index].angular_velocity = {};
+    }
+    assign_mass(world, id.index, *mass);
+    return Done{};
+}
+
+Status World::set_mass_properties(BodyId id, const MassProperties& properties) {
+    const FloatEnvironment ieee;
+    WorldState& world = *state_;
+    if (!names(world, id)) return tell(world, stale("set_mass_properties", "body"));
+    if (const Refusal r = check_mass_properties("mass_properties", properties))
+        return tell(world, "set_mass_properties", *r);
+    world.bodies[id.index].given_mass.reset();
+    world.bodies[id.index].given_mass_properties = properties;
+    assign_mass(world, id.index, properties);
+    return Done{};
+}
+
+Status World::set_gravity_scale(BodyId id, float scale) {
+    if (!names(*state_, id)) return tell(*state_, stale("set_gravity_scale", "body"));
+    if (const Refusal r = check_finite("scale", double(scale)))
+        return tell(*state_, "set_gravity_scale", *r);
+    state_->drives[id.index].gravity_scale = scale;
+    return Done{};
+}
+
+Status World::set_damping(BodyId id, float linear, float angular) {
+    if (!names(*state_, id)) return tell(*state_, stale("set_damping", "body"));
+    if (const Refusal r = check_at_least("linear", double(linear), 0))
+        return tell(*state_, "set_damping", *r);
+    if (const Refusal r = check_at_least("angular", double(angular), 0))
+        return tell(*state_, "set_damping", *r);
+    state_->drives[id.index].linear_damping = linear;
+    state_->drives[id.index].angular_damping = angular;
+    return Done{};
+}
+
+Status World::set_gyroscopic(BodyId id, bool on) {
+    if (!names(*state_, id)) return tell(*state_, stale("set_gyroscopic", "body"));
+    state_->drives[id.index].gyroscopic = on;
+    return Done{};
+}
+
+Status World::set_locked_axes(BodyId id, const LockedAxes& lock) {
+    if (!names(*state_, id)) return tell(*state_, stale("set_locked_axes", "body"));
+    state_->drives[id.index].lock = lock;
+    return Done{};
+}
+
+Status World::set_collision_filter(BodyId id, const CollisionFilter& filter) {
+    if (!names(*state_, id)) return tell(*state_, stale("set_collision_filter", "body"));
+    state_->bodies[id.index].filter = filter;
+    return Done{};
+}
+
+Status World::set_material(ShapeId id, const Material& material) {
+    if (!names(*state_, id)) return tell(*state_, stale("set_material", "shape"));
+    if (const Refusal r = check_material("material", material))
+        return tell(*state_, "set_material", *r);
+    state_->shapes[id.index].def.material = material;
+    return Done{};
+}
+
+Status World::set_constant_force(BodyId id, const Vec3& force, const Vec3& torque) {
+    if (!names(*state_, id)) return tell(*state_, stale("set_constant_force", "body"));
+    if (const Refusal r = check_finite("force", force))
+        return tell(*state_, "set_constant_force", *r);
+    if (const Refusal r = check_finite("torque", torque))
+        return tell(*state_, "set_constant_force", *r);
+    state_->bodies[id.index].constant_force = force;
+    state_->bodies[id.index].constant_torque = torque;
+    return Done{};
+}
+
+Status World::apply_force(BodyId id, const Vec3& force) {
+    if (!names(*state_, id)) return tell(*state_, stale("apply_force", "body"));
+    if (const Refusal r = check_finite("force", force)) return tell(*state_, "apply_force", *r);
+    const FloatEnvironment ieee;
+    state_->bodies[id.index].step_force += force;
+    return Done{};
+}
+
+Status World::apply_force_at(BodyId id, const Vec3& force, const Position& point) {
+    if (!names(*state_, id)) return tell(*state_, stale("apply_force_at", "body"));
+    if (const Refusal r = check_finite("force", force)) return tell(*state_, "apply_force_at", *r);
+    if (const Refusal r = check_position("point", point))
+        return tell(*state_, "apply_force_at", *r);
+    const FloatEnvironment ieee;
+    state_->bodies[id.index].step_force += force;
+    state_->bodies[id.index].step_torque += cross(point - state_->positions[id.index], force);
+    return Done{};
+}
+
+Status World::apply_torque(BodyId id, const Vec3& torque) {
+    if (!names(*state_, id)) return tell(*state_, stale("apply_torque", "body"));
+    if (const Refusal r = check_finite("torque", torque)) return tell(*state_, "apply_torque", *r);
+    const FloatEnvironment ieee;
+    state_->bodies[id.index].step_torque += torque;
+    return Done{};
+}
+
+namespace {
+
+void push(WorldState& world, std::uint32_t slot, Vec3 linear, Vec3 angular) {
+    const FloatEnvironment ieee;
+    const Response response =
+        find_response(world.inertias[slot], world.drives[slot], world.motions[slot].rotation);
+    world.motions[slot].linear_velocity += multiply(response.inverse_mass, linear);
+    world.motions[slot].angular_velocity += response.inverse_inertia * angular;
+}
+
+}  // namespace
+
+Status World::apply_impulse(BodyId id, const Vec3& impulse) {
+    if (!names(*state_, id)) return tell(*state_, stale("apply_impulse", "body"));
+    if (const Refusal r = check_finite("impulse", impulse))
+        return tell(*state_, "apply_impulse", *r);
+    push(*state_, id.index, impulse, {});
+    return Done{};
+}
+
+Status World::apply_impulse_at(BodyId id, const Vec3& impulse, const Position& point) {
+    if (!names(*state_, id)) return tell(*state_, stale("apply_impulse_at", "body"));
+    if (const Refusal r = check_finite("impulse", impulse))
+        return tell(*state_, "apply_impulse_at", *r);
+    if (const Refusal r = check_position("point", point))
+        return tell(*state_, "apply_impulse_at", *r);
+    push(*state_, id.index, impulse, cross(point - state_->positions[id.index], impulse));
+    return Done{};
+}
+
+Status World::apply_angular_impulse(BodyId id, const Vec3& impulse) {
+    if (!names(*state_, id)) return tell(*state_, stale("apply_angular_impulse", "body"));
+    if (const Refusal r = check_finite("impulse", impulse))
+        return tell(*state_, "apply_angular_impulse", *r);
+    push(*state_, id.index, {}, impulse);
+    return Done{};
+}
+
+Status World::step(double dt) {
+    if (const Refusal r = check_positive("dt", dt)) return tell(*state_, "step", *r);
+    step_world(*state_, dt);
+    return Done{};
+}
+
+}  // namespace cairn

@@ -1,0 +1,90 @@
+#pragma once
+// Everything a world is: copied whole, it is a snapshot.
+//
+// Bodies and shapes live in slots with a generation; parallel arrays keep apart what a step moves,
+// what resists, and what is rarely touched. Written by the user's changes and by step.cpp alone.
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "broad/brute_force.h"
+#include "cairn/world.h"
+#include "constraint/step_problem.h"
+#include "contact/contact_store.h"
+#include "solver/solver.h"
+
+namespace cairn {
+
+// A body's cold side: identity, and what the user said of it.
+struct BodyRecord {
+    std::uint32_t generation = 0;
+    bool alive = false;
+    bool frozen = false;
+    Vec3 center_of_mass;  // body frame
+    Vec3 constant_force, constant_torque;
+    Vec3 step_force, step_torque;  // for the next step alone
+    CollisionFilter filter;
+    MassProperties mass_properties;  // as dynamic, whatever the kind is now
+    std::optional<float> given_mass;
+    std::optional<MassProperties> given_mass_properties;
+    std::vector<std::uint32_t> shapes;  // slots, ascending in order of creation
+};
+
+struct ShapeRecord {
+    std::uint32_t generation = 0;
+    bool alive = false;
+    std::uint32_t body = 0;
+    ShapeDef def;
+    float size = 0;   // smallest half extent
+    float reach = 0;  // largest distance of a point from the body's center of mass
+};
+
+struct WorldState {
+    WorldSettings settings;
+    std::function<void(const Error&)> on_error;
+    SolverState solver;
+
+    // By body slot.
+    std::vector<BodyRecord> bodies;
+    std::vector<Position> positions;  // of the centers of mass
+    std::vector<BodyMotion> motions;
+    std::vector<BodyInertia> inertias;
+    std::vector<BodyDrive> drives;
+    std::vector<std::uint32_t> free_bodies;
+    std::size_t body_count = 0;
+
+    std::vector<ShapeRecord> shapes;  // by shape slot
+    std::vector<std::uint32_t> free_shapes;
+
+    ContactStore contacts;
+
+    StepReport report;
+    double last_dt = 0;
+    std::vector<ContactEvent> events;
+    std::vector<NonFinite> non_finite;
+
+    // Room that steps use again, of no meaning between them.
+    struct Scratch {
+        std::vector<Proxy> proxies;
+        std::vector<Pair> pairs;
+        std::vector<std::uint32_t> moving;
+        std::vector<std::uint32_t> active;
+        std::vector<BodyMotion> before;
+    } scratch;
+};
+
+inline BodyId body_id(const WorldState& world, std::uint32_t slot) {
+    return {slot, world.bodies[slot].generation};
+}
+inline ShapeId shape_id(const WorldState& world, std::uint32_t slot) {
+    return {slot, world.shapes[slot].generation};
+}
+
+// Where the body frame's origin is.
+inline Position origin_position(const WorldState& world, std::uint32_t slot) {
+    return world.positions[slot] -
+           rotate(world.motions[slot].rotation, world.bodies[slot].center_of_mass);
+}
+
+}  // namespace cairn
