@@ -1,0 +1,154 @@
+// Clipping one face of a box against another; see clip_faces.h.
+//
+// Symbols: n from the subject to the other, c the other's centre from the subject's, m_s and m_o
+// the outward normals of the two faces (m_s . n > 0, m_o . n < 0), u and v the edges of the other's
+// face. Coordinates (p, q): the point p u + q v + w n, by the dual vectors d_u = v x n / (u . v x
+// n) and d_v.
+
+#include "contact/clip_faces.h"
+
+namespace cairn {
+namespace {
+
+// A vertex this part of the smaller face's half width outside a side is moved to it.
+constexpr float relative_snap = 5e-3f;
+
+Vec3 column(const Mat3& m, int k) { return k == 0 ? m.x : k == 1 ? m.y : m.z; }
+
+struct Corner {
+    float p = 0, q = 0;
+    BoxFeature of_subject, of_other;
+};
+
+// A convex polygon can gain one corner at each of the four sides.
+struct Corners {
+    std::array<Corner, ClipPolygon::max_points> at;
+    int count = 0;
+    void push(const Corner& corner) {
+        if (count < ClipPolygon::max_points) at[std::size_t(count++)] = corner;
+    }
+};
+
+// One side of the other face: the coordinate (p or q) that it bounds and the one along it, the box
+// axis that it lies across, its sign and bound.
+struct Side {
+    float Corner::*coordinate;
+    float Corner::*along;
+    BoxFeature face;
+    int axis;
+    int sign;
+    float bound;
+};
+
+bool is_on_edge(const BoxFeature& f) {
+    return (f.signs[0] != 0) + (f.signs[1] != 0) + (f.signs[2] != 0) > 1;
+}
+
+// Where the polygon's edge from `in` to `out` crosses the side.
+Corner cut_edge(const Corner& in, const Corner& out, const Side& side) {
+    const float from = in.*side.coordinate, to = out.*side.coordinate;
+    const float part = (side.bound - from) / (to - from);
+    Corner cut;
+    cut.*side.coordinate = side.bound;
+    cut.*side.along = in.*side.along + part * (out.*side.along - in.*side.along);
+    cut.of_subject = common_feature(in.of_subject, out.of_subject);
+    cut.of_other = common_feature(in.of_other, out.of_other);
+    // On an edge of the subject two edges cross; else this is a vertex of the other over the
+    // subject's face, where the side that the edge lies on meets this one.
+    if (is_on_edge(cut.of_subject)) cut.of_other = side.face;
+    cut.of_other.signs[side.axis] = side.sign;
+    return cut;
+}
+
+Corners clip(const Corners& polygon, const Side& side, float snap) {
+    const float sign = float(side.sign), bound = side.bound;
+    Corners kept;
+    std::array<Corner, ClipPolygon::max_points> corners = polygon.at;
+    std::array<bool, ClipPolygon::max_points> is_inside;
+    for (int i = 0; i < polygon.count; ++i) {
+        Corner& corner = corners[std::size_t(i)];
+        const float beyond = sign * (corner.*side.coordinate - bound);
+        is_inside[std::size_t(i)] = beyond <= snap;
+        if (beyond > 0 && beyond <= snap) corner.*side.coordinate = bound;
+    }
+    for (int i = 0; i < polygon.count; ++i) {
+        const int next = i + 1 == polygon.count ? 0 : i + 1;
+        const Corner &a = corners[std::size_t(i)], &b = corners[std::size_t(next)];
+        const bool a_in = is_inside[std::size_t(i)], b_in = is_inside[std::size_t(next)];
+        if (a_in) kept.push(a);
+        // A corner on the side itself is its own crossing.
+        if (a_in && !b_in && a.*side.coordinate != bound) kept.push(cut_edge(a, b, side));
+        if (!a_in && b_in && b.*side.coordinate != bound) kept.push(cut_edge(b, a, side));
+    }
+    return kept;
+}
+
+}  // namespace
+
+BoxFace face_along(const PlacedBox& box, Vec3 n) {
+    const Vec3 slope = multiply_transposed(box.axes, n);
+    // A trifle of favour for the first axes, so that ties do not hang on rounding.
+    constexpr float clearly = 1.0f + 1e-3f;
+    int axis = 0;
+    for (int k = 1; k < 3; ++k) {
+        if (absolute(component(slope, k)) > clearly * absolute(component(slope, axis))) axis = k;
+    }
+    return {axis, component(slope, axis) < 0 ? -1.0f : 1.0f};
+}
+
+ClipPolygon clip_faces(const PlacedBox& subject, const PlacedBox& other, Vec3 c, Vec3 n) {
+    const BoxFace face_s = face_along(subject, n), face_o = face_along(other, -n);
+    const int s1 = (face_s.axis + 1) % 3, s2 = (face_s.axis + 2) % 3;
+    const int o1 = (face_o.axis + 1) % 3, o2 = (face_o.axis + 2) % 3;
+    const Vec3 u = column(other.axes, o1), v = column(other.axes, o2);
+    const float scale = 1.0f / dot(u, cross(v, n));
+    const Vec3 d_u = scale * cross(v, n), d_v = scale * cross(n, u);
+
+    // The subject's face in the other's plane.
+    const auto half = [](const PlacedBox& box, int k) { return component(box.half_extents, k); };
+    const Vec3 m_s = face_s.sign * column(subject.axes, face_s.axis);
+    const Vec3 center = half(subject, face_s.axis) * m_s;
+    const Vec3 e1 = half(subject, s1) * column(subject.axes, s1);
+    const Vec3 e2 = half(subject, s2) * column(subject.axes, s2);
+    BoxFeature other_face;
+    other_face.signs[face_o.axis] = int(face_o.sign);
+    Corners corners;
+    constexpr int turn[4][2] = {{1, 1}, {-1, 1}, {-1, -1}, {1, -1}};
+    for (const auto& [sign1, sign2] : turn) {
+        const Vec3 vertex = center + float(sign1) * e1 + float(sign2) * e2;
+        Corner corner = {dot(d_u, vertex), dot(d_v, vertex), {}, other_face};
+        corner.of_subject.signs[face_s.axis] = int(face_s.sign);
+        corner.of_subject.signs[s1] = sign1, corner.of_subject.signs[s2] = sign2;
+        corners.push(corner);
+    }
+
+    // The other's four sides.
+    ClipPolygon polygon;
+    polygon.other_p = dot(d_u, c), polygon.other_q = dot(d_v, c);
+    const float h1 = half(other, o1), h2 = half(other, o2);
+    const float snap = relative_snap * min(min(h1, h2), min(half(subject, s1), half(subject, s2)));
+    const Side sides[4] = {{&Corner::p, &Corner::q, other_face, o1, 1, polygon.other_p + h1},
+                           {&Corner::p, &Corner::q, other_face, o1, -1, polygon.other_p - h1},
+                           {&Corner::q, &Corner::p, other_face, o2, 1, polygon.other_q + h2},
+                           {&Corner::q, &Corner::p, other_face, o2, -1, polygon.other_q - h2}};
+    for (const Side& side : sides) corners = clip(corners, side, snap);
+
+    // Both faces' heights along n above the plane through the subject's centre along u and v.
+    const Vec3 m_o = face_o.sign * column(other.axes, face_o.axis);
+    const float height_o = (dot(m_o, c) + half(other, face_o.axis)) / dot(m_o, n);
+    const float steepness = 1.0f / dot(m_s, n);
+    const float slope_p = dot(m_s, u) * steepness, slope_q = dot(m_s, v) * steepness;
+    const float height_s = half(subject, face_s.axis) * steepness;
+    for (int i = 0; i < corners.count; ++i) {
+        const Corner& corner = corners.at[std::size_t(i)];
+        const float h_s = height_s - corner.p * slope_p - corner.q * slope_q;
+        ClipPoint& point = polygon.points[std::size_t(polygon.count++)];
+        point.position = corner.p * u + corner.q * v + 0.5f * (h_s + height_o) * n;
+        point.separation = height_o - h_s;
+        point.p = corner.p, point.q = corner.q;
+        point.of_subject = corner.of_subject, point.of_other = corner.of_other;
+    }
+    return polygon;
+}
+
+}  // namespace cairn

@@ -1,0 +1,19 @@
+#pragma once
+// Where two boxes meet along one of SAT's 15 axes: a point of each, and whether the axis's
+// separation is the true distance.
+
+#include "narrow/sat.h"
+
+namespace cairn {
+
+struct BoxWitness {
+    Vec3 point_a;  // from A's centre, along A's axes
+    Vec3 point_b;  // from B's centre, along A's axes
+    // True where both points lie on their boxes, one straight across from the other along the axis.
+    // Then the separation is the distance, since no axis can claim more than that.
+    bool is_on_both = false;
+};
+
+BoxWitness find_witness(const BoxPair& pair, const SeparatingAxis& axis);
+
+}  // namespace cairn

@@ -1,0 +1,36 @@
+// Support points of the Minkowski difference; see minkowski.h.
+
+#include "narrow/minkowski.h"
+
+namespace cairn {
+namespace {
+
+// The direction as binary32, scaled to a largest component of 1 so that it neither over- nor
+// underflows.
+Vec3 as_direction(WideVec3 d) {
+    const double x = d.x < 0 ? -d.x : d.x, y = d.y < 0 ? -d.y : d.y, z = d.z < 0 ? -d.z : d.z;
+    const double largest = x > y ? (x > z ? x : z) : (y > z ? y : z);
+    return largest > 0 ? narrow((1.0 / largest) * d) : Vec3{1, 0, 0};
+}
+
+}  // namespace
+
+MinkowskiDifference::MinkowskiDifference(const ConvexShape& a, const ConvexShape& b,
+                                         const Pose& b_in_a)
+    : a_(a),
+      b_(b),
+      axes_b_(to_matrix(b_in_a.rotation)),
+      t_(widen(b_in_a.position)),
+      u_x_(widen(axes_b_.x)),
+      u_y_(widen(axes_b_.y)),
+      u_z_(widen(axes_b_.z)) {}
+
+MinkowskiPoint MinkowskiDifference::support(WideVec3 direction) const {
+    const WideVec3 in_b = {dot(u_x_, direction), dot(u_y_, direction), dot(u_z_, direction)};
+    const WideVec3 a = widen(a_.support(a_.core, as_direction(direction)));
+    const WideVec3 local = widen(b_.support(b_.core, as_direction(-in_b)));
+    const WideVec3 b = local.x * u_x_ + local.y * u_y_ + local.z * u_z_;
+    return {a - (t_ + b), a, b};
+}
+
+}  // namespace cairn
