@@ -167,7 +167,7 @@ void Xpbd::solve_velocities(const StepProblem& problem, float h) {
             const float change =
                 max(p.normal_mass * (min(u, allowed) - u), -inverse_h * sum.normal[i]);
             apply_impulse(a, response_a, p.r_a, b, response_b, p.r_b, change * n);
-            sum.normal[i] += h * change;
+            sum.normal[i] = max(0, sum.normal[i] + h * change);
 
             const Vec3 v =
                 without_normal(relative_velocity(a, p.r_a, b, p.r_b), n) + row.surface_velocity;
