@@ -13,8 +13,6 @@ namespace {
 // A vertex this part of the smaller face's half width outside a side is moved to it.
 constexpr float relative_snap = 5e-3f;
 
-Vec3 column(const Mat3& m, int k) { return k == 0 ? m.x : k == 1 ? m.y : m.z; }
-
 struct Corner {
     float p = 0, q = 0;
     BoxFeature of_subject, of_other;

@@ -16,14 +16,9 @@
 #include <array>
 
 #include "contact/feature.h"
-#include "math/mat3.h"
+#include "shape/placed_box.h"
 
 namespace cairn {
-
-struct PlacedBox {
-    Vec3 half_extents;
-    Mat3 axes;  // along some common axes
-};
 
 struct BoxFace {
     int axis = 0;

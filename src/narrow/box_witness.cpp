@@ -4,6 +4,8 @@
 
 #include <limits>
 
+#include "shape/placed_box.h"
+
 namespace cairn {
 namespace {
 
@@ -11,11 +13,6 @@ namespace {
 constexpr float level = 1e-5f;
 // A point this part of the box's size outside its face still lies on it.
 constexpr float relative_border = 1e-6f;
-
-struct PlacedBox {
-    Vec3 h;
-    Mat3 axes;
-};
 
 float toward(float slope, float half) { return slope < 0 ? -half : half; }
 
@@ -26,7 +23,7 @@ Vec3 farthest_corner(const PlacedBox& box, Vec3 n, bool is_level[3]) {
     for (int k = 0; k < 3; ++k) {
         is_level[k] = absolute(component(slope, k)) < level;
         if (!is_level[k])
-            set_component(corner, k, toward(component(slope, k), component(box.h, k)));
+            set_component(corner, k, toward(component(slope, k), component(box.half_extents, k)));
     }
     return corner;
 }
@@ -44,7 +41,7 @@ FaceWitness meet_face(const PlacedBox& owner, int k, Vec3 n, const PlacedBox& ot
                       float separation) {
     bool is_level[3];
     Vec3 local = farthest_corner(other, -n, is_level);
-    Vec3 within = owner.h + relative_border * owner.h;
+    Vec3 within = owner.half_extents + relative_border * owner.half_extents;
     set_component(within, k, std::numeric_limits<float>::max());
     FaceWitness witness;
     // Alternating projections: onto the face's prism, back onto the level edge or face.
@@ -58,7 +55,7 @@ FaceWitness meet_face(const PlacedBox& owner, int k, Vec3 n, const PlacedBox& ot
         const Vec3 back = multiply_transposed(other.axes, owner.axes * (clamped - in_owner));
         for (int j = 0; j < 3; ++j) {
             if (!is_level[j]) continue;
-            const float half = component(other.h, j);
+            const float half = component(other.half_extents, j);
             set_component(local, j, clamp(component(local, j) + component(back, j), -half, half));
         }
     }
@@ -78,7 +75,7 @@ BoxWitness meet_edges(const PlacedBox& a, int i, const PlacedBox& b, int j, Vec3
     const float c = dot(e, u), d_e = dot(d, e), d_u = dot(d, u);
     const float squared_sine = length_squared(cross(e, u));
     const float s = (d_e - c * d_u) / squared_sine, r = (c * d_e - d_u) / squared_sine;
-    const float half_a = component(a.h, i), half_b = component(b.h, j);
+    const float half_a = component(a.half_extents, i), half_b = component(b.half_extents, j);
     BoxWitness witness;
     witness.is_on_both = absolute(s) <= half_a && absolute(r) <= half_b;
     witness.point_a = center_a + clamp(s, -half_a, half_a) * e;

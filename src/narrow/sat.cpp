@@ -9,6 +9,8 @@
 
 #include <limits>
 
+#include "shape/placed_box.h"
+
 namespace cairn {
 namespace {
 
@@ -22,10 +24,6 @@ constexpr float nearly_parallel_edges = 0.1f;
 
 AxisHint feature(BoxAxisKind kind, int index_a, int index_b) {
     return {std::uint8_t(kind), std::uint8_t(index_a), std::uint8_t(index_b)};
-}
-
-Vec3 face_normal_b(const BoxPair& pair, int j) {
-    return j == 0 ? pair.axes_b.x : j == 1 ? pair.axes_b.y : pair.axes_b.z;
 }
 
 Vec3 toward_b(Vec3 axis, float t_along) { return t_along < 0 ? -axis : axis; }
@@ -56,7 +54,7 @@ Best best_face(const BoxPair& pair) {
 
 // The separation along e_i x u_j; `lowest` where the edges are parallel.
 float edge_separation(const BoxPair& pair, const Mat3& reach, int i, int j) {
-    const Vec3 u = face_normal_b(pair, j);
+    const Vec3 u = column(pair.axes_b, j);
     const int i1 = i == 2 ? 0 : i + 1, i2 = i == 0 ? 2 : i - 1;
     const float u1 = component(u, i1), u2 = component(u, i2);
     const float squared = u1 * u1 + u2 * u2;
@@ -68,8 +66,8 @@ float edge_separation(const BoxPair& pair, const Mat3& reach, int i, int j) {
     const float reach_a =
         absolute(u2) * component(pair.h_a, i1) + absolute(u1) * component(pair.h_a, i2);
     const int j1 = j == 2 ? 0 : j + 1, j2 = j == 0 ? 2 : j - 1;
-    const float c1 = component(j1 == 0 ? reach.x : j1 == 1 ? reach.y : reach.z, i);
-    const float c2 = component(j2 == 0 ? reach.x : j2 == 1 ? reach.y : reach.z, i);
+    const float c1 = component(column(reach, j1), i);
+    const float c2 = component(column(reach, j2), i);
     const float reach_b = c2 * component(pair.h_b, j1) + c1 * component(pair.h_b, j2);
     return (t_along - (reach_a + reach_b)) / square_root(squared);
 }
@@ -109,9 +107,9 @@ SeparatingAxis measure_axis(const BoxPair& pair, AxisHint f) {
     Vec3 axis;
     switch (BoxAxisKind(f.kind)) {
         case BoxAxisKind::FaceA: axis = unit_axis(i); break;
-        case BoxAxisKind::FaceB: axis = face_normal_b(pair, j); break;
+        case BoxAxisKind::FaceB: axis = column(pair.axes_b, j); break;
         default: {
-            axis = cross(unit_axis(i), face_normal_b(pair, j));
+            axis = cross(unit_axis(i), column(pair.axes_b, j));
             const float length = square_root(length_squared(axis));
             if (length < parallel_edges) return {unit_axis(i), lowest, f};
             axis = (1.0f / length) * axis;
