@@ -6,6 +6,9 @@ namespace cairn {
 
 namespace {
 
+// Sweeps over the points of one manifold: four points of a face are then level to within a few percent.
+constexpr int normal_sweeps = 6;
+
 // 1 / the largest eigenvalue of the 2x2 form q across n; 0 where nothing gives.
 template <class Form>
 float softest_across(Vec3 n, Form&& q) {
@@ -31,14 +34,30 @@ void refresh_point(PointRow& p, Vec3 n, const BodyMotion& a, const BodyMotion& b
     p.r_b = arm_b - 0.5f * apart;
     p.separation = p.start_separation + dot(n, apart);
 
-    const float k = resistance(response_a, p.r_a, response_b, p.r_b, n);
-    p.normal_mass = k > 0 ? 1.0f / k : 0;
+    p.turn_a = cross(p.r_a, n);
+    p.turn_b = cross(p.r_b, n);
+    p.spin_a = response_a.inverse_inertia * p.turn_a;
+    p.spin_b = response_b.inverse_inertia * p.turn_b;
     const Vec3 inverse_mass = response_a.inverse_mass + response_b.inverse_mass;
     p.tangent_mass = softest_across(n, [&](Vec3 d, Vec3 e) {
         return dot(d, multiply(inverse_mass, e)) +
                dot(cross(p.r_a, d), response_a.inverse_inertia * cross(p.r_a, e)) +
                dot(cross(p.r_b, d), response_b.inverse_inertia * cross(p.r_b, e));
     });
+}
+
+void couple_points(ContactRows& row, const Response& response_a, const Response& response_b) {
+    const Vec3 n = row.normal;
+    const float linear = dot(n, multiply(response_a.inverse_mass + response_b.inverse_mass, n));
+    for (std::size_t i = 0; i < std::size_t(row.point_count); ++i) {
+        PointRow& p = row.points[i];
+        for (std::size_t j = 0; j <= i; ++j) {
+            const PointRow& q = row.points[j];
+            const float k = linear + dot(p.turn_a, q.spin_a) + dot(p.turn_b, q.spin_b);
+            row.coupling[i][j] = row.coupling[j][i] = k;
+        }
+        p.normal_mass = row.coupling[i][i] > 0 ? 1.0f / row.coupling[i][i] : 0;
+    }
 }
 
 }  // namespace
@@ -95,12 +114,35 @@ void refresh_rows(const StepProblem& problem, std::span<const Response> response
         for (int i = 0; i < row.point_count; ++i) {
             refresh_point(row.points[std::size_t(i)], row.normal, a, b, response_a, response_b);
         }
+        couple_points(row, response_a, response_b);
         if (row.rolling_friction > 0 || row.spinning_friction > 0) {
             const SymmetricMat3 turning = response_a.inverse_inertia + response_b.inverse_inertia;
             row.rolling_mass =
                 softest_across(row.normal, [&](Vec3 d, Vec3 e) { return dot(d, turning * e); });
             const float about = dot(row.normal, turning * row.normal);
             row.spinning_mass = about > 0 ? 1.0f / about : 0;
+        }
+    }
+}
+
+void solve_normals(const ContactRows& rows, float softness, std::array<float, 4>& velocities,
+                   std::array<float, 4>& loads) {
+    const auto count = std::size_t(rows.point_count);
+    const auto solve_point = [&](std::size_t i) {
+        const float k = rows.coupling[i][i] + softness;
+        if (!(k > 0)) return;
+        const float load = max(0, loads[i] - (velocities[i] + softness * loads[i]) / k);
+        const float change = load - loads[i];
+        loads[i] = load;
+        for (std::size_t j = 0; j < count; ++j) velocities[j] += rows.coupling[j][i] * change;
+    };
+    // Projected Gauss-Seidel to and fro, on these few numbers alone.
+    const int sweeps = count > 1 ? normal_sweeps : 1;
+    for (int sweep = 0; sweep < sweeps; ++sweep) {
+        if (sweep % 2 == 0) {
+            for (std::size_t i = 0; i < count; ++i) solve_point(i);
+        } else {
+            for (std::size_t i = count; i-- > 0;) solve_point(i);
         }
     }
 }

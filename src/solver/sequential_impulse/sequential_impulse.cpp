@@ -19,6 +19,19 @@ constexpr float largest_correction_share = 0.1f;
 
 float slop(const ContactRows& row) { return slop_share * row.size; }
 
+// Changes the two bodies' velocities by normal impulses, one at each point.
+void push_apart(const ContactRows& row, const std::array<float, 4>& impulses, BodyMotion& a, BodyMotion& b,
+                const Response& response_a, const Response& response_b) {
+    float sum = 0;
+    for (std::size_t i = 0; i < std::size_t(row.point_count); ++i) {
+        sum += impulses[i];
+        a.angular_velocity -= impulses[i] * row.points[i].spin_a;
+        b.angular_velocity += impulses[i] * row.points[i].spin_b;
+    }
+    a.linear_velocity -= multiply(response_a.inverse_mass, sum * row.normal);
+    b.linear_velocity += multiply(response_b.inverse_mass, sum * row.normal);
+}
+
 }  // namespace
 
 void SequentialImpulse::advance(const StepProblem& problem) {
@@ -120,15 +133,23 @@ void SequentialImpulse::solve_velocities(const StepProblem& problem, float h, bo
             sum.rolling = rolling;
             sum.spinning = spinning;
         }
-        for (std::size_t i = 0; i < std::size_t(row.point_count); ++i) {
-            const PointRow& p = row.points[i];
-            const float u = dot(n, relative_velocity(a, p.r_a, b, p.r_b));
-            const float total =
-                max(0, sum.normal[i] - p.normal_mass * (u + max(p.separation, 0) * inverse_h));
-            apply_impulse(a, response_a, p.r_a, b, response_b, p.r_b, (total - sum.normal[i]) * n);
-            sum.normal[i] = total;
-        }
+        solve_normal_rows(row, inverse_h, sum, a, b, response_a, response_b);
     }
+}
+
+void SequentialImpulse::solve_normal_rows(const ContactRows& row, float inverse_h, Accumulated& sum, BodyMotion& a,
+                                          BodyMotion& b, const Response& response_a, const Response& response_b) {
+    std::array<float, 4> velocities = {};
+    const float linear = dot(row.normal, b.linear_velocity - a.linear_velocity);
+    for (std::size_t i = 0; i < std::size_t(row.point_count); ++i) {
+        const PointRow& p = row.points[i];
+        velocities[i] = linear + dot(p.turn_b, b.angular_velocity) - dot(p.turn_a, a.angular_velocity) +
+                        max(p.separation, 0) * inverse_h;
+    }
+    std::array<float, 4> changes = sum.normal;
+    solve_normals(row, 0, velocities, sum.normal);
+    for (std::size_t i = 0; i < 4; ++i) changes[i] = sum.normal[i] - changes[i];
+    push_apart(row, changes, a, b, response_a, response_b);
 }
 
 void SequentialImpulse::correct_positions(const StepProblem& problem) {

@@ -44,6 +44,8 @@ private:
     void load_impulses(const StepProblem& problem, float h);
     void warm_start(const StepProblem& problem);
     void solve_velocities(const StepProblem& problem, float h, bool backward);
+    static void solve_normal_rows(const ContactRows& row, float inverse_h, Accumulated& sum, BodyMotion& a,
+                                  BodyMotion& b, const Response& response_a, const Response& response_b);
     void correct_positions(const StepProblem& problem);
     void store_impulses(const StepProblem& problem, float h);
 
