@@ -1,5 +1,5 @@
-# What `cmake --install` puts down: the library, its public headers, the command line where it was built,
-# and a package, so that `find_package(cairn)` gives a user `cairn::cairn`.
+# What `cmake --install` puts down: the library, its public headers, and a package, so that
+# `find_package(cairn)` gives a user `cairn::cairn`.
 include(CMakePackageConfigHelpers)
 
 set(cairn_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/cairn)
@@ -8,9 +8,6 @@ install(TARGETS cairn EXPORT cairn_targets
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
   LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(DIRECTORY include/cairn DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
-if(TARGET cairn_cli)
-  install(TARGETS cairn_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-endif()
 
 install(EXPORT cairn_targets NAMESPACE cairn:: DESTINATION ${cairn_package_dir})
 # The core needs no package, so the list of targets is all that a configuration has to read.
