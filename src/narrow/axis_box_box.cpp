@@ -8,16 +8,20 @@
 
 #include "narrow/axis_box_box.h"
 
+#include <optional>
+
 #include "narrow/box_witness.h"
 #include "narrow/gjk_epa.h"
 
 namespace cairn {
 namespace {
 
-Axis axis_along(const BoxPair& pair, const SeparatingAxis& best, AxisHint& hint) {
-    const BoxWitness witness = find_witness(pair, best);
-    hint = best.feature;
-    return {best.normal, best.separation, witness.point_a, witness.point_b};
+// The answer along one of the 15 axes; nothing where the boxes are apart by more than that axis
+// shows.
+std::optional<Axis> axis_along(const BoxPair& pair, const SeparatingAxis& along) {
+    const BoxWitness witness = find_witness(pair, along);
+    if (along.separation > 0 && !witness.is_on_both) return std::nullopt;
+    return Axis{along.normal, along.separation, witness.point_a, witness.point_b};
 }
 
 // The edge pair whose axis is the given normal, to 1e-3 radians; an unknown kind where there is
@@ -39,26 +43,28 @@ SeparatingAxis edge_pair_along(const BoxPair& pair, Vec3 normal) {
     return nearest;
 }
 
-// The axis that GJK or EPA found, on the face or the edge pair that it stands for.
+// The axis that GJK or EPA found, put on the one of the 15 that it stands for: the last step's
+// while it is nearly as good, the best face if that is, the edge pair that lies along it. `hint`
+// says which it was.
 Axis on_nearest_feature(const BoxPair& pair, const Axis& found, AxisHint& hint) {
     const AxisPreference preference = axis_preference(pair);
-    const bool knows_last = hint.kind != 0;
-    // The last axis, while it is as good; the best face, if it is; the edge pair that it is.
-    if (knows_last) {
-        const SeparatingAxis last = measure_axis(pair, hint);
-        if (last.separation >= found.separation - preference.new_over_last) {
-            const BoxWitness witness = find_witness(pair, last);
-            if (found.separation <= 0 || witness.is_on_both) return axis_along(pair, last, hint);
+    const SeparatingAxis last = hint.kind != 0 ? measure_axis(pair, hint) : SeparatingAxis{};
+    struct Candidate {
+        SeparatingAxis axis;
+        float yielding;  // how much worse than what was found it may be
+    };
+    const Candidate candidates[] = {
+        {last, preference.new_over_last},
+        {find_separating_face(pair, {}), preference.edge_over_face},
+        {edge_pair_along(pair, found.normal), preference.edge_over_face},
+    };
+    for (const auto& [candidate, yielding] : candidates) {
+        if (candidate.feature.kind == 0) continue;
+        if (candidate.separation < found.separation - yielding) continue;
+        if (const std::optional<Axis> axis = axis_along(pair, candidate)) {
+            hint = candidate.feature;
+            return *axis;
         }
-    }
-    const SeparatingAxis face = find_separating_face(pair, {});
-    if (face.separation >= found.separation - preference.edge_over_face) {
-        return axis_along(pair, face, hint);
-    }
-    const SeparatingAxis edges = edge_pair_along(pair, found.normal);
-    if (edges.feature.kind != 0 &&
-        edges.separation >= found.separation - preference.edge_over_face) {
-        return axis_along(pair, edges, hint);
     }
     hint = {};
     return found;
@@ -69,18 +75,16 @@ Axis on_nearest_feature(const BoxPair& pair, const Axis& found, AxisHint& hint) 
 Axis find_axis_box_box(const Box& a, const Box& b, const Pose& b_in_a, NarrowPhase method,
                        AxisHint& hint) {
     const BoxPair pair = make_box_pair(a, b, b_in_a);
-    if (method == NarrowPhase::GjkEpa) {
-        const Vec3 toward_b = pair.t == Vec3{} ? Vec3{0, 1, 0} : pair.t;
-        const Axis found = find_axis_convex(convex_shape(a), convex_shape(b), b_in_a, toward_b);
-        return on_nearest_feature(pair, found, hint);
+    Vec3 toward_b = pair.t == Vec3{} ? Vec3{0, 1, 0} : pair.t;
+    if (method == NarrowPhase::Sat) {
+        const SeparatingAxis best = find_separating_axis(pair, hint);
+        if (const std::optional<Axis> axis = axis_along(pair, best)) {
+            hint = best.feature;
+            return *axis;
+        }
+        toward_b = best.normal;
     }
-    const SeparatingAxis best = find_separating_axis(pair, hint);
-    const BoxWitness witness = find_witness(pair, best);
-    if (best.separation <= 0 || witness.is_on_both) {
-        hint = best.feature;
-        return {best.normal, best.separation, witness.point_a, witness.point_b};
-    }
-    const Axis found = find_axis_convex(convex_shape(a), convex_shape(b), b_in_a, best.normal);
+    const Axis found = find_axis_convex(convex_shape(a), convex_shape(b), b_in_a, toward_b);
     return on_nearest_feature(pair, found, hint);
 }
 
