@@ -123,16 +123,19 @@ ClipPolygon clip_faces(const PlacedBox& subject, const PlacedBox& other, Vec3 c,
     // The other's four sides.
     ClipPolygon polygon;
     polygon.other_p = dot(d_u, c), polygon.other_q = dot(d_v, c);
+    // The face's middle: off the centre's own line along n where the face leans.
+    const Vec3 m_o = face_o.sign * column(other.axes, face_o.axis);
+    const Vec3 middle = c + half(other, face_o.axis) * m_o;
+    const float p = dot(d_u, middle), q = dot(d_v, middle);
     const float h1 = half(other, o1), h2 = half(other, o2);
     const float snap = relative_snap * min(min(h1, h2), min(half(subject, s1), half(subject, s2)));
-    const Side sides[4] = {{&Corner::p, &Corner::q, other_face, o1, 1, polygon.other_p + h1},
-                           {&Corner::p, &Corner::q, other_face, o1, -1, polygon.other_p - h1},
-                           {&Corner::q, &Corner::p, other_face, o2, 1, polygon.other_q + h2},
-                           {&Corner::q, &Corner::p, other_face, o2, -1, polygon.other_q - h2}};
+    const Side sides[4] = {{&Corner::p, &Corner::q, other_face, o1, 1, p + h1},
+                           {&Corner::p, &Corner::q, other_face, o1, -1, p - h1},
+                           {&Corner::q, &Corner::p, other_face, o2, 1, q + h2},
+                           {&Corner::q, &Corner::p, other_face, o2, -1, q - h2}};
     for (const Side& side : sides) corners = clip(corners, side, snap);
 
     // Both faces' heights along n above the plane through the subject's centre along u and v.
-    const Vec3 m_o = face_o.sign * column(other.axes, face_o.axis);
     const float height_o = (dot(m_o, c) + half(other, face_o.axis)) / dot(m_o, n);
     const float steepness = 1.0f / dot(m_s, n);
     const float slope_p = dot(m_s, u) * steepness, slope_q = dot(m_s, v) * steepness;
