@@ -1,0 +1,150 @@
+// The command line: `cairn run`, `scenes`, `export`, `check`.
+//
+// Exit status: 0 done; 1 the run went wrong; 2 bad usage, a bad scene or something not supported,
+// with one message on standard error.
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <iostream>
+
+#include "cairn_run.h"
+#include "cairn_terminal.h"
+#include "scene/builtin.h"
+#include "scene/check.h"
+
+namespace {
+
+using namespace cairn;
+using tool::bad_usage;
+using tool::done;
+using tool::fail;
+
+int list_scenes() {
+    for (const scene::Builtin& builtin : scene::builtins()) {
+        fmt::print("{:<12} {}\n", builtin.name, builtin.line);
+        fmt::print("{:<12}   look: {}\n", "", builtin.look);
+        for (const std::string& line : scene::describe_parameters(builtin)) {
+            fmt::print("{:<12}   --set {}\n", "", line);
+        }
+    }
+    return done;
+}
+
+int export_scene(const std::string& name, const std::vector<std::string>& settings) {
+    if (scene::find_builtin(name) == nullptr) {
+        const std::string_view near = scene::find_nearest_builtin(name);
+        return fail(bad_usage,
+                    fmt::format("{}: no built-in scene{}; `cairn scenes` lists them", name,
+                                near.empty() ? "" : fmt::format(", did you mean \"{}\"?", near)));
+    }
+    const Result<scene::Scene> made = tool::load_scene(name, settings);
+    if (!made) return fail(bad_usage, made.error().message);
+    fmt::print("{}", scene::write_scene(*made));
+    return std::fflush(stdout) == 0 ? done
+                                    : fail(tool::went_wrong, "standard output cannot be written");
+}
+
+int check_scene(const std::string& source, const std::vector<std::string>& settings) {
+    const Result<scene::Scene> loaded = tool::load_scene(source, settings);
+    if (!loaded) return fail(bad_usage, loaded.error().message);
+    const Result<std::vector<scene::Finding>> findings = scene::find_misbehaviour(*loaded);
+    if (!findings) return fail(bad_usage, fmt::format("{}: {}", source, findings.error().message));
+    fmt::print("{}: a valid scene of {} bodies; {}\n", source, scene::count_bodies(*loaded),
+               findings->empty() ? "nothing in it looks like trouble"
+                                 : fmt::format("{} thing{} in it may misbehave:", findings->size(),
+                                               findings->size() == 1 ? "" : "s"));
+    for (const scene::Finding& finding : *findings) {
+        fmt::print("  {}: {}; cure: {}\n", finding.where, finding.what, finding.cure);
+    }
+    return done;
+}
+
+void add_run_options(CLI::App& app, tool::RunCommand& run) {
+    scene::RunOptions& options = run.options;
+    app.add_option("SCENE", run.scene,
+                   "a scene file, - for standard input, or a built-in scene's name")
+        ->required();
+    app.add_option("--set", run.settings, "a built-in scene's parameter, key=value")
+        ->type_size(1)
+        ->allow_extra_args(false);
+    app.add_option("--steps", options.steps, "how many steps; 0 reports the initial state");
+    app.add_option("--seconds", options.seconds,
+                   "how long to simulate instead of the scene's duration");
+    app.add_option("--dt", options.dt, "seconds a step");
+    app.add_option("--solver", options.solver, "sequential-impulse or xpbd");
+    app.add_option("--substeps", options.substeps, "substeps a step, 1 to 1000");
+    app.add_option("--iterations", options.iterations, "iterations a substep, 1 to 1000");
+    app.add_option("--narrow-phase", options.narrow_phase, "sat or gjk-epa");
+    app.add_option("--broad-phase", options.broad_phase, "brute-force");
+    app.add_option("--threads", run.threads, "accepted; this version runs on one thread");
+    app.add_option("--lanes", run.lanes, "accepted; this version runs on one lane");
+    app.add_option("--json", run.json, "write the result to this file, - for standard output");
+    app.add_option("--sample-every", options.sample_every, "samples in the result, every K steps")
+        ->check(CLI::PositiveNumber);
+    app.add_option("--replay", run.replay, "write a page that plays the run, FILE.html");
+    app.add_flag("--quiet", run.quiet, "no progress bar, no summary");
+}
+
+int run_command_line(int argc, char** argv) {
+    CLI::App app{"Cairn, a 3D rigid-body physics engine that you can see into"};
+    app.set_version_flag("--version", version());
+    app.require_subcommand(1);
+    tool::RunCommand run;
+    CLI::App* run_app = app.add_subcommand("run", "simulate a scene");
+    add_run_options(*run_app, run);
+
+    CLI::App* scenes_app =
+        app.add_subcommand("scenes", "list the built-in scenes and their parameters");
+    std::string source;
+    std::vector<std::string> settings;
+    CLI::App* export_app = app.add_subcommand("export", "print a built-in scene as a scene file");
+    export_app->add_option("NAME", source, "a built-in scene's name")->required();
+    CLI::App* check_app =
+        app.add_subcommand("check", "tell whether a scene is valid, and what in it will misbehave");
+    check_app->add_option("SCENE", source, "a scene file, -, or a built-in scene's name")
+        ->required();
+    for (CLI::App* sub : {export_app, check_app}) {
+        sub->add_option("--set", settings, "a built-in scene's parameter, key=value")
+            ->type_size(1)
+            ->allow_extra_args(false);
+    }
+    CLI::App* report_app =
+        app.add_subcommand("report", "not yet part of this version")->allow_extras();
+    CLI::App* bench_app =
+        app.add_subcommand("bench", "not yet part of this version")->allow_extras();
+
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        // Help and the version are no failures.
+        if (error.get_exit_code() == 0) return app.exit(error);
+        return fail(bad_usage, std::string(error.what()) +
+                                   "; `cairn --help` and `cairn run --help` tell more");
+    }
+    if (*run_app) return tool::run(run);
+    if (*scenes_app) return list_scenes();
+    if (*export_app) return export_scene(source, settings);
+    if (*check_app) return check_scene(source, settings);
+    if (*report_app) return fail(bad_usage, "report: not yet part of this version");
+    if (*bench_app) {
+        return fail(bad_usage,
+                    "bench: not yet part of this version; the benchmark is a program of its own, "
+                    "built with "
+                    "CAIRN_BENCH=ON");
+    }
+    return bad_usage;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    try {
+        return run_command_line(argc, argv);
+    } catch (const std::bad_alloc&) {
+        return fail(tool::went_wrong, "out of memory");
+    } catch (const std::exception& error) {
+        return fail(tool::went_wrong, error.what());
+    }
+}
