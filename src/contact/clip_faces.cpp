@@ -81,6 +81,33 @@ Corners clip(const Corners& polygon, const Side& side, float snap) {
     return kept;
 }
 
+BoxFeature feature_of(const BoxFace& face) {
+    BoxFeature feature;
+    feature.signs[face.axis] = int(face.sign);
+    return feature;
+}
+
+// The half width of the face across its narrower direction.
+float smallest_half_width(const PlacedBox& box, const BoxFace& face) {
+    return min(component(box.half_extents, (face.axis + 1) % 3),
+               component(box.half_extents, (face.axis + 2) % 3));
+}
+
+// The face's four vertices, in order around it.
+Corners corners_of(const PlacedBox& box, const BoxFace& face, Vec3 d_u, Vec3 d_v) {
+    const int k1 = (face.axis + 1) % 3, k2 = (face.axis + 2) % 3;
+    constexpr int turn[4][2] = {{1, 1}, {-1, 1}, {-1, -1}, {1, -1}};
+    Corners corners;
+    for (const auto& [sign1, sign2] : turn) {
+        BoxFeature vertex = feature_of(face);
+        vertex.signs[k1] = sign1, vertex.signs[k2] = sign2;
+        const Vec3 signs = {float(vertex.signs[0]), float(vertex.signs[1]), float(vertex.signs[2])};
+        const Vec3 position = box.axes * multiply(signs, box.half_extents);
+        corners.push({dot(d_u, position), dot(d_v, position), vertex, {}});
+    }
+    return corners;
+}
+
 }  // namespace
 
 BoxFace face_along(const PlacedBox& box, Vec3 n) {
@@ -96,56 +123,41 @@ BoxFace face_along(const PlacedBox& box, Vec3 n) {
 
 ClipPolygon clip_faces(const PlacedBox& subject, const PlacedBox& other, Vec3 c, Vec3 n) {
     const BoxFace face_s = face_along(subject, n), face_o = face_along(other, -n);
-    const int s1 = (face_s.axis + 1) % 3, s2 = (face_s.axis + 2) % 3;
     const int o1 = (face_o.axis + 1) % 3, o2 = (face_o.axis + 2) % 3;
     const Vec3 u = column(other.axes, o1), v = column(other.axes, o2);
     const float scale = 1.0f / dot(u, cross(v, n));
     const Vec3 d_u = scale * cross(v, n), d_v = scale * cross(n, u);
-
-    // The subject's face in the other's plane.
-    const auto half = [](const PlacedBox& box, int k) { return component(box.half_extents, k); };
     const Vec3 m_s = face_s.sign * column(subject.axes, face_s.axis);
-    const Vec3 center = half(subject, face_s.axis) * m_s;
-    const Vec3 e1 = half(subject, s1) * column(subject.axes, s1);
-    const Vec3 e2 = half(subject, s2) * column(subject.axes, s2);
-    BoxFeature other_face;
-    other_face.signs[face_o.axis] = int(face_o.sign);
-    Corners corners;
-    constexpr int turn[4][2] = {{1, 1}, {-1, 1}, {-1, -1}, {1, -1}};
-    for (const auto& [sign1, sign2] : turn) {
-        const Vec3 vertex = center + float(sign1) * e1 + float(sign2) * e2;
-        Corner corner = {dot(d_u, vertex), dot(d_v, vertex), {}, other_face};
-        corner.of_subject.signs[face_s.axis] = int(face_s.sign);
-        corner.of_subject.signs[s1] = sign1, corner.of_subject.signs[s2] = sign2;
-        corners.push(corner);
-    }
-
-    // The other's four sides.
-    ClipPolygon polygon;
-    polygon.other_p = dot(d_u, c), polygon.other_q = dot(d_v, c);
-    // The face's middle: off the centre's own line along n where the face leans.
     const Vec3 m_o = face_o.sign * column(other.axes, face_o.axis);
-    const Vec3 middle = c + half(other, face_o.axis) * m_o;
+    const float h_s = component(subject.half_extents, face_s.axis);
+    const float h_o = component(other.half_extents, face_o.axis);
+
+    // The subject's face, cut by the four sides that stand about the middle of the other's.
+    Corners corners = corners_of(subject, face_s, d_u, d_v);
+    const Vec3 middle = c + h_o * m_o;
     const float p = dot(d_u, middle), q = dot(d_v, middle);
-    const float h1 = half(other, o1), h2 = half(other, o2);
-    const float snap = relative_snap * min(min(h1, h2), min(half(subject, s1), half(subject, s2)));
-    const Side sides[4] = {{&Corner::p, &Corner::q, other_face, o1, 1, p + h1},
-                           {&Corner::p, &Corner::q, other_face, o1, -1, p - h1},
-                           {&Corner::q, &Corner::p, other_face, o2, 1, q + h2},
-                           {&Corner::q, &Corner::p, other_face, o2, -1, q - h2}};
+    const float h1 = component(other.half_extents, o1), h2 = component(other.half_extents, o2);
+    const float snap = relative_snap * min(min(h1, h2), smallest_half_width(subject, face_s));
+    const BoxFeature face = feature_of(face_o);
+    const Side sides[4] = {{&Corner::p, &Corner::q, face, o1, 1, p + h1},
+                           {&Corner::p, &Corner::q, face, o1, -1, p - h1},
+                           {&Corner::q, &Corner::p, face, o2, 1, q + h2},
+                           {&Corner::q, &Corner::p, face, o2, -1, q - h2}};
+    for (int i = 0; i < corners.count; ++i) corners.at[std::size_t(i)].of_other = face;
     for (const Side& side : sides) corners = clip(corners, side, snap);
 
     // Both faces' heights along n above the plane through the subject's centre along u and v.
-    const float height_o = (dot(m_o, c) + half(other, face_o.axis)) / dot(m_o, n);
+    const float height_o = (dot(m_o, c) + h_o) / dot(m_o, n);
     const float steepness = 1.0f / dot(m_s, n);
     const float slope_p = dot(m_s, u) * steepness, slope_q = dot(m_s, v) * steepness;
-    const float height_s = half(subject, face_s.axis) * steepness;
+    ClipPolygon polygon;
+    polygon.other_p = dot(d_u, c), polygon.other_q = dot(d_v, c);
     for (int i = 0; i < corners.count; ++i) {
         const Corner& corner = corners.at[std::size_t(i)];
-        const float h_s = height_s - corner.p * slope_p - corner.q * slope_q;
+        const float height_s = h_s * steepness - corner.p * slope_p - corner.q * slope_q;
         ClipPoint& point = polygon.points[std::size_t(polygon.count++)];
-        point.position = corner.p * u + corner.q * v + 0.5f * (h_s + height_o) * n;
-        point.separation = height_o - h_s;
+        point.position = corner.p * u + corner.q * v + 0.5f * (height_s + height_o) * n;
+        point.separation = height_o - height_s;
         point.p = corner.p, point.q = corner.q;
         point.of_subject = corner.of_subject, point.of_other = corner.of_other;
     }
