@@ -106,8 +106,10 @@ void read_materials(const JsonValue& value, const Place& at, Scene& scene) {
         at.fail(fmt::format("found {}; allowed: an object of materials by name", describe(value)));
     }
     for (std::size_t i = 0; i < value.keys.size(); ++i) {
-        const Place material_at = {&at, value.keys[i].empty() ? "\"\"" : value.keys[i], 0};
-        if (value.keys[i].empty()) {
+        // The place keeps a view: both must outlive it.
+        const std::string_view key = value.keys[i];
+        const Place material_at = {&at, key.empty() ? "\"\"" : key, 0};
+        if (key.empty()) {
             material_at.fail(
                 "found a material named \"\"; allowed: a name of at least one character");
         }
