@@ -8,7 +8,7 @@ namespace {
 // How much larger a later subset must be, and, as part of the polygon's size, how much deeper a
 // later point to count as the deepest.
 constexpr float clearly_larger = 1.02f;
-constexpr float relative_depth = 1e-5f;
+constexpr float relative_depth = 1e-4f;
 // The weight of length beside area: it decides only where the polygon has next to no area.
 constexpr float length_weight = 1e-3f;
 

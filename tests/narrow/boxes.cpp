@@ -1,5 +1,5 @@
-// Box against box: the cases with a known answer, and thousands against judges that work otherwise. Each
-// for SAT and for GJK with EPA.
+// Box against box: the cases with a known answer, and thousands against judges that work otherwise.
+// Each for SAT and for GJK with EPA.
 
 #include <doctest/doctest.h>
 
@@ -47,7 +47,8 @@ TEST_CASE("C05: a cube on its corner above a face is dz - 1/2 - sqrt(3)/2 away")
     for (NarrowPhase method : methods) {
         CAPTURE(int(method));
         for (double dz : {1.6, 1.3}) {
-            const Axis axis = axis_of(cube, cube, {{0.1f, -0.07f, float(dz)}, diagonal_upright()}, method);
+            const Axis axis =
+                axis_of(cube, cube, {{0.1f, -0.07f, float(dz)}, diagonal_upright()}, method);
             CHECK(std::abs(double(axis.separation) - (dz - 0.5 - std::sqrt(3.0) / 2)) < 1e-5);
             CHECK(length(axis.normal - Vec3{0, 0, 1}) < 1e-5f);
             CHECK(length(axis.point_b - Vec3{0, 0, -float(std::sqrt(3.0) / 2)}) < 1e-5f);
@@ -59,7 +60,8 @@ TEST_CASE("C06: crossed edges are dz - sqrt(2) away, along their common perpendi
     for (NarrowPhase method : methods) {
         CAPTURE(int(method));
         for (double dz : {1.5, 1.4}) {
-            const Pose a = {{}, turn({1, 0, 0}, pi / 4)}, b = {{0, 0, float(dz)}, turn({0, 1, 0}, pi / 4)};
+            const Pose a = {{}, turn({1, 0, 0}, pi / 4)},
+                       b = {{0, 0, float(dz)}, turn({0, 1, 0}, pi / 4)};
             AxisHint hint;
             const Axis axis = find_axis(cube, cube, inverse(a) * b, method, hint);
             CHECK(std::abs(double(axis.separation) - (dz - std::sqrt(2.0))) < 1e-5);
@@ -77,7 +79,8 @@ TEST_CASE("C06: crossed edges are dz - sqrt(2) away, along their common perpendi
 TEST_CASE("C07, C08: an edge in a face, a face in a face") {
     for (NarrowPhase method : methods) {
         CAPTURE(int(method));
-        const Axis edge = axis_of(cube, cube, {{0.2f, 0.1f, 1.15f}, turn({1, 0, 0}, pi / 4)}, method);
+        const Axis edge =
+            axis_of(cube, cube, {{0.2f, 0.1f, 1.15f}, turn({1, 0, 0}, pi / 4)}, method);
         CHECK(std::abs(double(edge.separation) + 0.0571068) < 1e-5);
         CHECK(length(edge.normal - Vec3{0, 0, 1}) < 1e-5f);
         const Axis face = axis_of(cube, cube, {{0.9f, 0.2f, 0.1f}, {}}, method);
@@ -86,7 +89,8 @@ TEST_CASE("C07, C08: an edge in a face, a face in a face") {
     }
 }
 
-TEST_CASE("C11: the depth of overlapping boxes is that of the hull of their vertices' differences") {
+TEST_CASE(
+    "C11: the depth of overlapping boxes is that of the hull of their vertices' differences") {
     Random random(11);
     for (NarrowPhase method : methods) {
         Verdict worst;
@@ -161,7 +165,8 @@ TEST_CASE("C11: moved apart by the depth along the normal, two boxes just touch"
             const Axis axis = axis_of(pos_a, pos_b, pose, method);
             if (axis.separation >= 0) continue;
             pose.position = pose.position - axis.separation * axis.normal;
-            worst = std::max(worst, std::abs(double(axis_of(pos_a, pos_b, pose, method).separation)));
+            worst =
+                std::max(worst, std::abs(double(axis_of(pos_a, pos_b, pose, method).separation)));
         }
         CAPTURE(int(method));
         CHECK(worst < 1e-5);
@@ -169,7 +174,8 @@ TEST_CASE("C11: moved apart by the depth along the normal, two boxes just touch"
 }
 
 TEST_CASE("a face wins over an edge pair that is no better than rounding") {
-    // A cube flat on another, turned about the upright: crossed edges separate no better than the faces.
+    // A cube flat on another, turned about the upright: crossed edges separate no better than the
+    // faces.
     for (NarrowPhase method : methods) {
         for (double yaw : {0.0, 1e-7, 1e-4, 0.01, 0.3, pi / 4}) {
             for (double tilt : {0.0, 1e-7, 1e-6}) {
@@ -190,7 +196,8 @@ TEST_CASE("the last step's axis is kept while it is within a thousandth of the b
         AxisHint hint;
         // 0.1 deep along x; then z becomes the better by 0.0001, and by 0.01.
         CHECK(find_axis(cube, cube, {{0.9f, 0, 0.8f}, {}}, method, hint).normal == Vec3{1, 0, 0});
-        CHECK(find_axis(cube, cube, {{0.9f, 0, 0.9001f}, {}}, method, hint).normal == Vec3{1, 0, 0});
+        CHECK(find_axis(cube, cube, {{0.9f, 0, 0.9001f}, {}}, method, hint).normal ==
+              Vec3{1, 0, 0});
         CHECK(find_axis(cube, cube, {{0.9f, 0, 0.91f}, {}}, method, hint).normal == Vec3{0, 0, 1});
     }
 }

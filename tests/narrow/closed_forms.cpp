@@ -71,7 +71,8 @@ TEST_CASE("C03: a ball leaves a box by the nearest face, edge or corner, to 1e-5
 }
 
 TEST_CASE("C03: a ball whose centre is inside leaves by the face it is nearest to") {
-    const Axis axis = axis_of(Box{{1, 2, 3}}, Sphere{0.5f}, {{0.2f, -1.9f, 1}, {}}, NarrowPhase::Sat);
+    const Axis axis =
+        axis_of(Box{{1, 2, 3}}, Sphere{0.5f}, {{0.2f, -1.9f, 1}, {}}, NarrowPhase::Sat);
     CHECK(axis.normal == Vec3{0, -1, 0});
     CHECK(axis.separation == Approx(-0.6));
     // On the surface to rounding, the face decides and not the rounding.

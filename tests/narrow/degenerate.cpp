@@ -1,5 +1,5 @@
-// C13: touching, coplanar, identical, needle, plate, tiny, huge, and very unequal shapes: every answer is
-// finite, found in fewer than 64 rounds, and right to 1e-4 of the shapes' size.
+// C13: touching, coplanar, identical, needle, plate, tiny, huge, and very unequal shapes: every
+// answer is finite, found in fewer than 64 rounds, and right to 1e-4 of the shapes' size.
 
 #include <doctest/doctest.h>
 
@@ -29,7 +29,8 @@ void check_sane(const Axis& axis) {
 
 int rounds_of(const Box& a, const Box& b, const Pose& pose) {
     const MinkowskiDifference difference(convex_shape(a), convex_shape(b), pose);
-    const GjkResult gjk = find_closest_points(difference, widen(pose.position + Vec3{0, 1e-30f, 0}));
+    const GjkResult gjk =
+        find_closest_points(difference, widen(pose.position + Vec3{0, 1e-30f, 0}));
     return std::max(gjk.rounds, gjk.overlap ? find_penetration(difference, gjk.simplex).rounds : 0);
 }
 
@@ -40,9 +41,10 @@ TEST_CASE("C13: touching, coplanar and identical cubes at every scale") {
         double x, y, z, separation;
     };
     // In units of the cube's edge.
-    constexpr Case cases[] = {{1, 0, 0, 0},        {1, 0.5, 0.25, 0}, {1, 1, 0, 0},   {1, 1, 1, 0},
-                              {1 + 1e-6, 0, 0, 0}, {0.3, 0, 0, -0.7}, {0, 0, 0, -1},  {0, 1e-7, 0, -1},
-                              {0, 0, 2, 1},        {0.5, 0.5, 0.5, -0.5}};
+    constexpr Case cases[] = {{1, 0, 0, 0},         {1, 0.5, 0.25, 0},   {1, 1, 0, 0},
+                              {1, 1, 1, 0},         {1 + 1e-6, 0, 0, 0}, {0.3, 0, 0, -0.7},
+                              {0, 0, 0, -1},        {0, 1e-7, 0, -1},    {0, 0, 2, 1},
+                              {0.5, 0.5, 0.5, -0.5}};
     for (double s : scales)
         for (const Case& c : cases)
             for (NarrowPhase method : methods) {
@@ -59,7 +61,8 @@ TEST_CASE("C13: touching, coplanar and identical cubes at every scale") {
             }
 }
 
-TEST_CASE("C13: needles and plates, in random poses at every scale, against the hull of differences") {
+TEST_CASE(
+    "C13: needles and plates, in random poses at every scale, against the hull of differences") {
     Random random(31);
     const double shapes[][3] = {{0.5, 5e-4, 5e-4}, {5, 5, 5e-4}, {0.5, 0.5, 0.5}};
     for (double s : scales) {
@@ -100,14 +103,16 @@ TEST_CASE("C13: nearly parallel needles and plates keep their edge axes") {
         if (truth > 0) truth = distance_by_features(WideBox(a, {}), WideBox(b, pose));
         for (NarrowPhase method : methods) {
             double& error = worst[method == NarrowPhase::GjkEpa];
-            error = std::max(error, std::abs(double(axis_of(a, b, pose, method).separation) - truth));
+            error =
+                std::max(error, std::abs(double(axis_of(a, b, pose, method).separation) - truth));
         }
     }
     CHECK(worst[0] < 1e-4);
     CHECK(worst[1] < 1e-4);
 }
 
-TEST_CASE("C13: a small box on a ground a thousand times its size is seen to a millionth of its own") {
+TEST_CASE(
+    "C13: a small box on a ground a thousand times its size is seen to a millionth of its own") {
     for (NarrowPhase method : methods)
         for (double tilt : {0.0, 1e-7, 1e-4}) {
             const Quat q = turn({0, 1, 0}, 0.3) * turn({1, 0, 0}, tilt);
@@ -115,7 +120,8 @@ TEST_CASE("C13: a small box on a ground a thousand times its size is seen to a m
             const Box ground{{400, 1, 400}}, box{{0.5f, 0.5f, 0.5f}};
             const Axis axis = axis_of(ground, box, pose, method);
             CHECK(axis.normal == Vec3{0, 1, 0});
-            const double truth = separation_along(WideBox(ground, {}), WideBox(box, pose), {0, 1, 0});
+            const double truth =
+                separation_along(WideBox(ground, {}), WideBox(box, pose), {0, 1, 0});
             CHECK(std::abs(double(axis.separation) - truth) < 1e-6);
         }
 }
@@ -127,7 +133,8 @@ TEST_CASE("C13: a vertex exactly on the other's vertex, edge and face, in every 
                 for (int sz : {-1, 0, 1}) {
                     if (sx == 0 && sy == 0 && sz == 0) continue;
                     const Box box{{0.5f, 0.5f, 0.5f}};
-                    const Axis axis = axis_of(box, box, {{float(sx), float(sy), float(sz)}, {}}, method);
+                    const Axis axis =
+                        axis_of(box, box, {{float(sx), float(sy), float(sz)}, {}}, method);
                     check_sane(axis);
                     CHECK(axis.separation == Approx(0).epsilon(1e-6));
                     CHECK(dot(axis.normal, Vec3{float(sx), float(sy), float(sz)}) > 0.5f);

@@ -75,12 +75,14 @@ TEST_CASE("GJK's triangle: three vertices, three edges, the face, and no area") 
         double nearest_x, nearest_y;
     };
     // a (0,0), b (4,0), c (0,4); the origin at (x, y).
-    constexpr Case cases[] = {{-1, -2, 1, 0, 0}, {6, -1, 1, 4, 0}, {-1, 7, 1, 0, 4}, {2, -1, 2, 2, 0},
-                              {-3, 1, 2, 0, 1},  {3, 3, 2, 2, 2},  {1, 1, 3, 1, 1}};
+    constexpr Case cases[] = {{-1, -2, 1, 0, 0}, {6, -1, 1, 4, 0}, {-1, 7, 1, 0, 4},
+                              {2, -1, 2, 2, 0},  {-3, 1, 2, 0, 1}, {3, 3, 2, 2, 2},
+                              {1, 1, 3, 1, 1}};
     for (const Case& c : cases) {
         CAPTURE(c.x);
         CAPTURE(c.y);
-        Simplex s = simplex_of({{0 - c.x, 0 - c.y, 1}, {4 - c.x, 0 - c.y, 1}, {0 - c.x, 4 - c.y, 1}});
+        Simplex s =
+            simplex_of({{0 - c.x, 0 - c.y, 1}, {4 - c.x, 0 - c.y, 1}, {0 - c.x, 4 - c.y, 1}});
         reduce_triangle(s);
         CHECK(s.size == c.size);
         CHECK(nearest(s).x == Approx(c.nearest_x - c.x));
@@ -99,7 +101,8 @@ TEST_CASE("GJK's tetrahedron: inside, and the nearest point of its surface from 
     double worst = 0;
     for (int i = 0; i < 10000; ++i) {
         Simplex s;
-        for (; s.size < 4; ++s.size) s.points[s.size].w = widen(random.vector(1) + Vec3{0.2f, 0, 0});
+        for (; s.size < 4; ++s.size)
+            s.points[s.size].w = widen(random.vector(1) + Vec3{0.2f, 0, 0});
         const Simplex before = s;
         if (reduce_tetrahedron(s)) {
             ++inside;
@@ -138,7 +141,8 @@ TEST_CASE("EPA starts from a point, a segment, a triangle and a tetrahedron alik
         CHECK(epa.normal.x == Approx(1));
     }
     // Touching in a vertex, an edge, a face: GJK ends on a smaller simplex, the depth is 0.
-    for (const Vec3& t : {Vec3{1, 1, 1}, Vec3{1, 1, 0.25f}, Vec3{1, 0.25f, 0.125f}, Vec3{1, 0, 0}}) {
+    for (const Vec3& t :
+         {Vec3{1, 1, 1}, Vec3{1, 1, 0.25f}, Vec3{1, 0.25f, 0.125f}, Vec3{1, 0, 0}}) {
         const MinkowskiDifference touch(convex_shape(cube), convex_shape(cube), {t, {}});
         for (const WideVec3& guess : {WideVec3{1, 1, 1}, WideVec3{1, 0, 0}, WideVec3{0, 0, 1}}) {
             const GjkResult gjk = find_closest_points(touch, guess);
@@ -211,8 +215,8 @@ TEST_CASE("C14: with a point for its core a ball is exact under GJK and EPA") {
         const Pose pose = {{random.real(-1.6, 1.6), random.real(-2.6, 2.6), random.real(-3.6, 3.6)},
                            random.rotation()};
         const Axis closed = axis_of(box, ball, pose, NarrowPhase::Sat);
-        const Axis walked = find_axis_convex(cairn::convex_shape(box), cairn::convex_shape(ball), pose,
-                                             pose.position);
+        const Axis walked = find_axis_convex(cairn::convex_shape(box), cairn::convex_shape(ball),
+                                             pose, pose.position);
         const double error = std::abs(double(closed.separation) - double(walked.separation));
         worst = std::max(worst, error);
         if (closed.separation < -ball.radius) worst_deep = std::max(worst_deep, error);

@@ -1,6 +1,6 @@
 #pragma once
-// Judges for the narrow phase, in binary64 and by other means than its own: random poses, the hull of all
-// vertex differences, and distances by looking at every pair of features.
+// Judges for the narrow phase, in binary64 and by other means than its own: random poses, the hull
+// of all vertex differences, and distances by looking at every pair of features.
 
 #include <algorithm>
 #include <array>
@@ -99,7 +99,8 @@ struct WideBox {
 };
 
 inline double segment_distance(V p0, V p1, V q0, V q1) {
-    // The least of the four ends against the other segment, and of the crossing where it is inside both.
+    // The least of the four ends against the other segment, and of the crossing where it is inside
+    // both.
     const auto to_segment = [](V p, V a, V b) {
         const V ab = b - a;
         const double squared = dot(ab, ab);
@@ -118,7 +119,8 @@ inline double segment_distance(V p0, V p1, V q0, V q1) {
     return best;
 }
 
-// The distance of two boxes that do not overlap: every vertex against the other box, every edge pair.
+// The distance of two boxes that do not overlap: every vertex against the other box, every edge
+// pair.
 inline double distance_by_features(const WideBox& a, const WideBox& b) {
     const auto on_a = a.vertices(), on_b = b.vertices();
     double best = 1e300;
@@ -130,15 +132,16 @@ inline double distance_by_features(const WideBox& a, const WideBox& b) {
             for (std::size_t j = 0; j < 8; ++j)
                 for (std::size_t l = 1; l < 8; l <<= 1) {
                     if (j & l) continue;
-                    best = std::min(best, segment_distance(on_a[i], on_a[i | k], on_b[j], on_b[j | l]));
+                    best = std::min(best,
+                                    segment_distance(on_a[i], on_a[i | k], on_b[j], on_b[j | l]));
                 }
         }
     return best;
 }
 
-// The signed distance from the origin to the surface of the hull of a - b over all vertices: every plane
-// through three of the points that has none beyond it. Negative where the boxes overlap; where they do
-// not, the largest distance to a face's plane, a lower bound of the distance.
+// The signed distance from the origin to the surface of the hull of a - b over all vertices: every
+// plane through three of the points that has none beyond it. Negative where the boxes overlap;
+// where they do not, the largest distance to a face's plane, a lower bound of the distance.
 inline double separation_by_hull(const std::vector<V>& on_a, const std::vector<V>& on_b) {
     std::vector<V> d;
     for (const V& p : on_a)
@@ -187,8 +190,8 @@ inline Axis axis_of(const Geometry& a, const Geometry& b, const Pose& b_in_a, Na
     return find_axis(a, b, b_in_a, method, hint);
 }
 // Where both shapes are placed in a common frame; the axis is along A's axes.
-inline Axis axis_between(const Geometry& a, const Pose& pose_a, const Geometry& b, const Pose& pose_b,
-                         NarrowPhase method) {
+inline Axis axis_between(const Geometry& a, const Pose& pose_a, const Geometry& b,
+                         const Pose& pose_b, NarrowPhase method) {
     return axis_of(a, b, inverse(pose_a) * pose_b, method);
 }
 

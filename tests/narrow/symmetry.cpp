@@ -87,7 +87,8 @@ TEST_CASE("C12: both orders give contact points at the same places") {
             const Pose pose = {random.vector(1.2), random.rotation()};
             const Axis axis = axis_of(a, b, pose, method);
             const Axis back = axis_of(b, a, inverse(pose), method);
-            if (axis.separation > 0 || length(axis.normal + rotate(pose.rotation, back.normal)) > 1e-4f)
+            if (axis.separation > 0 ||
+                length(axis.normal + rotate(pose.rotation, back.normal)) > 1e-4f)
                 continue;
             const Manifold there = build_manifold(a, b, pose, axis, 0);
             const Manifold here = build_manifold(b, a, inverse(pose), back, 0);
