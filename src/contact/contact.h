@@ -50,6 +50,9 @@ struct Contact {
     Vec3 surface_velocity;  // of B's surface less A's, world, beyond the bodies' own motion
     float size =
         0;  // the smaller of the shapes' smallest half extents: what lengths are measured by
+    // Where the surfaces slide along each other within a step, the contact stays with this one's
+    // feature: the round shape's lowest point, the smaller shape's corner.
+    bool stays_with_a = false;
 
     Vec3 normal = {0, 1, 0};  // unit, from A to B, world
     int point_count = 0;
@@ -58,6 +61,9 @@ struct Contact {
     float spinning_torque = 0;  // N m on B about the normal
     Vec3 rolling_impulse;       // N m s on B over the last step
     float spinning_impulse = 0;
+
+    float first_overlap =
+        0;  // m: how deep the shapes overlapped when they met, as far as still borne
 
     Axis axis;  // the narrow phase's answer, in shape A's frame
     AxisHint hint;

@@ -6,10 +6,12 @@ namespace cairn {
 
 namespace {
 
-// Newton's steps for one piece; the start is within half a radian, so four reach rounding.
-constexpr int newton_steps = 4;
+// Newton's steps for one piece, and the change, as a share of the speed, that ends them: three or
+// four reach it.
+constexpr int most_newton_steps = 8;
+constexpr float settled_share = 1e-7f;
 // Radians a piece: larger ones would need more steps for the same rounding.
-constexpr float piece_angle = 0.5f;
+constexpr float piece_angle = 0.2f;
 // A body that turns more often than this in one substep is beyond tracing; pieces grow instead.
 constexpr int most_pieces = 64;
 
@@ -21,17 +23,21 @@ struct BodyFrameSpin {
 BodyFrameSpin solve_spin(Vec3 before, const SymmetricMat3& inertia,
                          const SymmetricMat3& inverse_inertia, float h) {
     const Vec3 momentum = inertia * before;
-    // d/dW' of I W' - exp(-h Wm) I W, to first order in h: I - (h/2) [I W]x.
-    const Vec3 k = (0.5f * h) * momentum;
-    const Mat3 jacobian = {{inertia.xx, inertia.xy - k.z, inertia.xz + k.y},
-                           {inertia.xy + k.z, inertia.yy, inertia.yz - k.x},
-                           {inertia.xz - k.y, inertia.yz + k.x, inertia.zz}};
+    const float settled = settled_share * length(before);
     Vec3 after = before;
     Vec3 mean = before;
-    for (int i = 0; i < newton_steps; ++i) {
+    for (int i = 0; i < most_newton_steps; ++i) {
         const Vec3 turned = rotate_inverse(exponential_map(h * mean), momentum);
-        after = after - solve(jacobian, inertia * after - turned);
+        // d/dW' of I W' - exp(-h Wm) I W, to second order in h: I - (h/2) [m]x, m the mean
+        // momentum.
+        const Vec3 k = (0.25f * h) * (momentum + turned);
+        const Mat3 jacobian = {{inertia.xx, inertia.xy - k.z, inertia.xz + k.y},
+                               {inertia.xy + k.z, inertia.yy, inertia.yz - k.x},
+                               {inertia.xz - k.y, inertia.yz + k.x, inertia.zz}};
+        const Vec3 change = solve(jacobian, inertia * after - turned);
+        after -= change;
         mean = 0.5f * (before + after);
+        if (length(change) <= settled) break;
     }
     // What the turn by `mean` makes of the momentum, exactly: no momentum is lost to a residual.
     after = inverse_inertia * rotate_inverse(exponential_map(h * mean), momentum);
@@ -68,8 +74,11 @@ void integrate_velocity(BodyMotion& motion, const BodyInertia& inertia, const Bo
     Vec3 v = motion.linear_velocity +
              h * (drive.gravity_scale * gravity + inertia.inverse_mass * drive.force);
     Vec3 w = motion.angular_velocity + h * (response.inverse_inertia * drive.torque);
-    v = (1.0f / (1.0f + h * drive.linear_damping)) * v;
-    w = (1.0f / (1.0f + h * drive.angular_damping)) * w;
+    // As a loss: the small share rounds far finer than a factor near 1 would.
+    const float linear_loss = h * drive.linear_damping;
+    const float angular_loss = h * drive.angular_damping;
+    v -= (linear_loss / (1.0f + linear_loss)) * v;
+    w -= (angular_loss / (1.0f + angular_loss)) * w;
     motion.linear_velocity = without_locked(v, lock.x, lock.y, lock.z);
     motion.angular_velocity = without_locked(w, lock.rx, lock.ry, lock.rz);
 }

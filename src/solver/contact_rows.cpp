@@ -6,7 +6,8 @@ namespace cairn {
 
 namespace {
 
-// Sweeps over the points of one manifold: four points of a face are then level to within a few percent.
+// Sweeps over the points of one manifold: four points of a face are then level to within a few
+// percent.
 constexpr int normal_sweeps = 6;
 
 // 1 / the largest eigenvalue of the 2x2 form q across n; 0 where nothing gives.
@@ -23,16 +24,21 @@ float softest_across(Vec3 n, Form&& q) {
     return largest > 0 ? 1.0f / largest : 0;
 }
 
-void refresh_point(PointRow& p, Vec3 n, const BodyMotion& a, const BodyMotion& b,
+void refresh_point(PointRow& p, const ContactRows& row, const BodyMotion& a, const BodyMotion& b,
                    const Response& response_a, const Response& response_b) {
+    const Vec3 n = row.normal;
     const Vec3 arm_a = find_arm(p.arm_a, a.rotation);
     const Vec3 arm_b = find_arm(p.arm_b, b.rotation);
-    // The two material points were one place when the step began; the common point is halfway now.
+    // The two points were one place when the step began. The common point is halfway along the
+    // normal now, and across it where the one is that the contact stays with.
     const Vec3 apart =
         (b.displacement + (arm_b - p.start_b)) - (a.displacement + (arm_a - p.start_a));
-    p.r_a = arm_a + 0.5f * apart;
-    p.r_b = arm_b - 0.5f * apart;
-    p.separation = p.start_separation + dot(n, apart);
+    const float open = dot(n, apart);
+    const Vec3 slid = apart - open * n;
+    const Vec3 halfway = (0.5f * open) * n;
+    p.r_a = arm_a + halfway + (row.stays_with_a ? Vec3{} : slid);
+    p.r_b = arm_b - halfway - (row.stays_with_a ? slid : Vec3{});
+    p.separation = p.start_separation + open;
 
     p.turn_a = cross(p.r_a, n);
     p.turn_b = cross(p.r_b, n);
@@ -79,6 +85,7 @@ void prepare_rows(const StepProblem& problem, std::vector<ContactRows>& rows) {
         row.rolling_friction = contact.rolling_friction;
         row.spinning_friction = contact.spinning_friction;
         row.size = contact.size;
+        row.stays_with_a = contact.stays_with_a;
         row.point_count = contact.point_count;
         for (int i = 0; i < contact.point_count; ++i) {
             const ContactPoint& from = contact.points[std::size_t(i)];
@@ -112,7 +119,7 @@ void refresh_rows(const StepProblem& problem, std::span<const Response> response
         const Response& response_a = responses[row.body_a];
         const Response& response_b = responses[row.body_b];
         for (int i = 0; i < row.point_count; ++i) {
-            refresh_point(row.points[std::size_t(i)], row.normal, a, b, response_a, response_b);
+            refresh_point(row.points[std::size_t(i)], row, a, b, response_a, response_b);
         }
         couple_points(row, response_a, response_b);
         if (row.rolling_friction > 0 || row.spinning_friction > 0) {
@@ -145,6 +152,18 @@ void solve_normals(const ContactRows& rows, float softness, std::array<float, 4>
             for (std::size_t i = count; i-- > 0;) solve_point(i);
         }
     }
+}
+
+void push_apart(const ContactRows& row, const std::array<float, 4>& impulses, BodyMotion& a,
+                BodyMotion& b, const Response& response_a, const Response& response_b) {
+    float sum = 0;
+    for (std::size_t i = 0; i < std::size_t(row.point_count); ++i) {
+        sum += impulses[i];
+        a.angular_velocity -= impulses[i] * row.points[i].spin_a;
+        b.angular_velocity += impulses[i] * row.points[i].spin_b;
+    }
+    a.linear_velocity -= multiply(response_a.inverse_mass, sum * row.normal);
+    b.linear_velocity += multiply(response_b.inverse_mass, sum * row.normal);
 }
 
 void share_evenly(const ContactRows& rows, std::array<float, 4>& loads) {

@@ -20,9 +20,9 @@ struct PointRow {
     float start_separation = 0;
     Vec3 r_a, r_b;          // now, to the common point
     float separation = 0;   // now
-    Vec3 turn_a, turn_b;        // r x n: torque of a unit normal impulse
-    Vec3 spin_a, spin_b;        // I^-1 (r x n): the angular velocity that it gives
-    float normal_mass = 0;      // 1 / K(n)
+    Vec3 turn_a, turn_b;    // r x n: torque of a unit normal impulse
+    Vec3 spin_a, spin_b;    // I^-1 (r x n): the angular velocity that it gives
+    float normal_mass = 0;  // 1 / K(n)
     float tangent_mass =
         0;  // 1 / the largest K across n: a step that never overshoots, in any direction
 };
@@ -37,6 +37,7 @@ struct ContactRows {
     float rolling_friction = 0;
     float spinning_friction = 0;
     float size = 0;
+    bool stays_with_a = false;
     float rolling_mass = 0;   // 1 / the largest rotational response across n
     float spinning_mass = 0;  // 1 / the rotational response about n
     int point_count = 0;
@@ -92,11 +93,15 @@ inline Vec3 clamp_length(Vec3 v, float limit) {
 }
 
 // The normal impulses of one manifold, solved together: finds l >= 0 near `loads` with
-// velocity_i + sum_j coupling_ij (l_j - loads_j) + softness l_i >= 0, and zero where l_i > 0. Points of one face
-// lean on each other; one after another they would tilt a box that should come to rest level. `loads` becomes l,
-// `velocities` what is left.
+// velocity_i + sum_j coupling_ij (l_j - loads_j) + softness l_i >= 0, and zero where l_i > 0.
+// Points of one face lean on each other; one after another they would tilt a box that should come
+// to rest level. `loads` becomes l, `velocities` what is left.
 void solve_normals(const ContactRows& rows, float softness, std::array<float, 4>& velocities,
                    std::array<float, 4>& loads);
+
+// Changes the two bodies' velocities by normal impulses, one at each point.
+void push_apart(const ContactRows& row, const std::array<float, 4>& impulses, BodyMotion& a,
+                BodyMotion& b, const Response& response_a, const Response& response_b);
 
 // Four points on one face share a load in many ways that push and turn a body alike. Takes from
 // `loads` the part that does nothing, as far as none becomes negative: the even sharing, which is

@@ -106,6 +106,9 @@ void describe_contact(const WorldState& world, Contact& contact) {
     contact.surface_velocity = rotate(world.motions[b.body].rotation, material_b.surface_velocity) -
                                rotate(world.motions[a.body].rotation, material_a.surface_velocity);
     contact.size = min(a.size, b.size);
+    const bool round_a = is_round(a.def.geometry);
+    const bool round_b = is_round(b.def.geometry);
+    contact.stays_with_a = round_a != round_b ? round_a : a.size < b.size;
 }
 
 bool find_contact_axis(const WorldState& world, Contact& contact) {

@@ -151,6 +151,8 @@ void build_manifolds(WorldState& world, double dt) {
         if (contact.axis.separation <= within)
             count = build_contact_points(world, contact, within, points);
         match_points(contact, std::span(points).first(std::size_t(count)));
+        // Shapes that move together touch before they overlap; these were put there overlapping.
+        if (!contact.touching) contact.first_overlap = max(0, -contact.axis.separation);
         contact.rolling_impulse = {};
         contact.spinning_impulse = 0;
         if (count == 0) {

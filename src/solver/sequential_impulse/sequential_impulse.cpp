@@ -19,19 +19,6 @@ constexpr float largest_correction_share = 0.1f;
 
 float slop(const ContactRows& row) { return slop_share * row.size; }
 
-// Changes the two bodies' velocities by normal impulses, one at each point.
-void push_apart(const ContactRows& row, const std::array<float, 4>& impulses, BodyMotion& a, BodyMotion& b,
-                const Response& response_a, const Response& response_b) {
-    float sum = 0;
-    for (std::size_t i = 0; i < std::size_t(row.point_count); ++i) {
-        sum += impulses[i];
-        a.angular_velocity -= impulses[i] * row.points[i].spin_a;
-        b.angular_velocity += impulses[i] * row.points[i].spin_b;
-    }
-    a.linear_velocity -= multiply(response_a.inverse_mass, sum * row.normal);
-    b.linear_velocity += multiply(response_b.inverse_mass, sum * row.normal);
-}
-
 }  // namespace
 
 void SequentialImpulse::advance(const StepProblem& problem) {
@@ -47,14 +34,73 @@ void SequentialImpulse::advance(const StepProblem& problem) {
         }
         load_impulses(problem, h);
         warm_start(problem);
-        for (int iteration = 0; iteration < problem.iterations; ++iteration) {
-            solve_velocities(problem, h, iteration % 2 == 1);
-        }
+        solve(problem, h);
         for (const std::uint32_t i : problem.moving) {
             integrate_pose(problem.motions[i], problem.inertias[i], problem.drives[i], h);
         }
         correct_positions(problem);
         store_impulses(problem, h);
+    }
+}
+
+void SequentialImpulse::solve(const StepProblem& problem, float h) {
+    directions_.assign(rows_.size(), {});
+    float last_squared = 0;
+    for (int iteration = 0; iteration < problem.iterations; ++iteration) {
+        before_ = accumulated_;
+        solve_velocities(problem, h, iteration % 2 == 1);
+        if (iteration + 1 == problem.iterations) return;
+        // How far the sweep went, in J: comparable between light and heavy.
+        float squared = 0;
+        for (std::size_t k = 0; k < rows_.size(); ++k)
+            squared += find_change(rows_[k], before_[k], accumulated_[k]);
+        const float beta = last_squared > 0 ? squared / last_squared : 0;
+        last_squared = squared;
+        accelerate(problem, beta <= 1 ? beta : 0);
+    }
+}
+
+float SequentialImpulse::find_change(const ContactRows& row, Accumulated& before,
+                                     const Accumulated& after) {
+    float squared = 0;
+    const auto weigh = [](float x, float mass) { return mass > 0 ? x / mass : 0; };
+    for (std::size_t i = 0; i < std::size_t(row.point_count); ++i) {
+        const PointRow& p = row.points[i];
+        before.normal[i] = after.normal[i] - before.normal[i];
+        before.friction[i] = after.friction[i] - before.friction[i];
+        squared += weigh(square(before.normal[i]), p.normal_mass) +
+                   weigh(length_squared(before.friction[i]), p.tangent_mass);
+    }
+    before.rolling = after.rolling - before.rolling;
+    before.spinning = after.spinning - before.spinning;
+    return squared + weigh(length_squared(before.rolling), row.rolling_mass) +
+           weigh(square(before.spinning), row.spinning_mass);
+}
+
+void SequentialImpulse::accelerate(const StepProblem& problem, float beta) {
+    for (std::size_t k = 0; k < rows_.size(); ++k) {
+        Accumulated& d = directions_[k];
+        const Accumulated& change = before_[k];
+        Accumulated extra;
+        for (std::size_t i = 0; i < 4; ++i) {
+            extra.normal[i] = beta * d.normal[i];
+            extra.friction[i] = beta * d.friction[i];
+            d.normal[i] = extra.normal[i] + change.normal[i];
+            d.friction[i] = extra.friction[i] + change.friction[i];
+        }
+        extra.rolling = beta * d.rolling;
+        extra.spinning = beta * d.spinning;
+        d.rolling = extra.rolling + change.rolling;
+        d.spinning = extra.spinning + change.spinning;
+        if (beta == 0) continue;
+        Accumulated& sum = accumulated_[k];
+        for (std::size_t i = 0; i < 4; ++i) {
+            sum.normal[i] += extra.normal[i];
+            sum.friction[i] += extra.friction[i];
+        }
+        sum.rolling += extra.rolling;
+        sum.spinning += extra.spinning;
+        apply(problem, rows_[k], extra);
     }
 }
 
@@ -81,22 +127,23 @@ void SequentialImpulse::load_impulses(const StepProblem& problem, float h) {
     }
 }
 
-void SequentialImpulse::warm_start(const StepProblem& problem) {
-    for (std::size_t k = 0; k < rows_.size(); ++k) {
-        const ContactRows& row = rows_[k];
-        const Accumulated& sum = accumulated_[k];
-        BodyMotion& a = problem.motions[row.body_a];
-        BodyMotion& b = problem.motions[row.body_b];
-        const Response& response_a = responses_[row.body_a];
-        const Response& response_b = responses_[row.body_b];
-        for (std::size_t i = 0; i < std::size_t(row.point_count); ++i) {
-            apply_impulse(a, response_a, row.points[i].r_a, b, response_b, row.points[i].r_b,
-                          sum.normal[i] * row.normal + sum.friction[i]);
-        }
-        const Vec3 twist = sum.rolling + sum.spinning * row.normal;
-        a.angular_velocity -= response_a.inverse_inertia * twist;
-        b.angular_velocity += response_b.inverse_inertia * twist;
+void SequentialImpulse::apply(const StepProblem& problem, const ContactRows& row,
+                              const Accumulated& impulses) {
+    BodyMotion& a = problem.motions[row.body_a];
+    BodyMotion& b = problem.motions[row.body_b];
+    const Response& response_a = responses_[row.body_a];
+    const Response& response_b = responses_[row.body_b];
+    for (std::size_t i = 0; i < std::size_t(row.point_count); ++i) {
+        apply_impulse(a, response_a, row.points[i].r_a, b, response_b, row.points[i].r_b,
+                      impulses.normal[i] * row.normal + impulses.friction[i]);
     }
+    const Vec3 twist = impulses.rolling + impulses.spinning * row.normal;
+    a.angular_velocity -= response_a.inverse_inertia * twist;
+    b.angular_velocity += response_b.inverse_inertia * twist;
+}
+
+void SequentialImpulse::warm_start(const StepProblem& problem) {
+    for (std::size_t k = 0; k < rows_.size(); ++k) apply(problem, rows_[k], accumulated_[k]);
 }
 
 void SequentialImpulse::solve_velocities(const StepProblem& problem, float h, bool backward) {
@@ -137,14 +184,15 @@ void SequentialImpulse::solve_velocities(const StepProblem& problem, float h, bo
     }
 }
 
-void SequentialImpulse::solve_normal_rows(const ContactRows& row, float inverse_h, Accumulated& sum, BodyMotion& a,
-                                          BodyMotion& b, const Response& response_a, const Response& response_b) {
+void SequentialImpulse::solve_normal_rows(const ContactRows& row, float inverse_h, Accumulated& sum,
+                                          BodyMotion& a, BodyMotion& b, const Response& response_a,
+                                          const Response& response_b) {
     std::array<float, 4> velocities = {};
     const float linear = dot(row.normal, b.linear_velocity - a.linear_velocity);
     for (std::size_t i = 0; i < std::size_t(row.point_count); ++i) {
         const PointRow& p = row.points[i];
-        velocities[i] = linear + dot(p.turn_b, b.angular_velocity) - dot(p.turn_a, a.angular_velocity) +
-                        max(p.separation, 0) * inverse_h;
+        velocities[i] = linear + dot(p.turn_b, b.angular_velocity) -
+                        dot(p.turn_a, a.angular_velocity) + max(p.separation, 0) * inverse_h;
     }
     std::array<float, 4> changes = sum.normal;
     solve_normals(row, 0, velocities, sum.normal);

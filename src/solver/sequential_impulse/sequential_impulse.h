@@ -43,14 +43,19 @@ private:
 
     void load_impulses(const StepProblem& problem, float h);
     void warm_start(const StepProblem& problem);
+    void apply(const StepProblem& problem, const ContactRows& row, const Accumulated& impulses);
+    void solve(const StepProblem& problem, float h);
+    static float find_change(const ContactRows& row, Accumulated& before, const Accumulated& after);
+    void accelerate(const StepProblem& problem, float beta);
     void solve_velocities(const StepProblem& problem, float h, bool backward);
-    static void solve_normal_rows(const ContactRows& row, float inverse_h, Accumulated& sum, BodyMotion& a,
-                                  BodyMotion& b, const Response& response_a, const Response& response_b);
+    static void solve_normal_rows(const ContactRows& row, float inverse_h, Accumulated& sum,
+                                  BodyMotion& a, BodyMotion& b, const Response& response_a,
+                                  const Response& response_b);
     void correct_positions(const StepProblem& problem);
     void store_impulses(const StepProblem& problem, float h);
 
     std::vector<ContactRows> rows_;
-    std::vector<Accumulated> accumulated_;
+    std::vector<Accumulated> accumulated_, before_, directions_;
     std::vector<Response> responses_;
     ImpactSolver impacts_;
 };

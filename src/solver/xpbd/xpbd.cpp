@@ -8,11 +8,14 @@ namespace cairn {
 
 namespace {
 
-// An overlap that was there before the substep is removed at this many of the smaller shape's sizes
-// a second of its own falling time sqrt(size/g): similar scenes at two scales do alike.
-constexpr float push_speed_share = 0.5f;
+// An overlap that two shapes met with is removed at this share of the speed sqrt(size g) that
+// falling makes of the smaller one's size: similar scenes at two scales do alike.
+constexpr float push_speed_share = 0.25f;
 // Where there is no gravity to measure by: shares of the size a step.
-constexpr float push_share_a_step = 0.02f;
+constexpr float push_share_a_step = 0.004f;
+// Overlap that is left alone, as a share of the smaller shape: a few roundings of a separation,
+// which would otherwise be pushed out at rounding / h.
+constexpr float slop_share = 1e-6f;
 
 float find_push_speed(const ContactRows& row, const StepProblem& problem) {
     const float by_gravity = push_speed_share * square_root(row.size * length(problem.gravity));
@@ -33,7 +36,7 @@ void Xpbd::advance(const StepProblem& problem) {
         predict(problem, h);
         measure(problem, h);
         for (int iteration = 0; iteration < problem.iterations; ++iteration) {
-            correct_positions(problem, h, (substep + iteration) % 2 == 1);
+            correct_positions(problem, h);
         }
         derive_velocities(problem, h);
         solve_velocities(problem, h);
@@ -55,17 +58,6 @@ void Xpbd::predict(const StepProblem& problem, float h) {
         integrate_velocity(problem.motions[i], problem.inertias[i], problem.drives[i],
                            responses_[i], problem.gravity, h);
     }
-    // Slips are those of the predicted velocities, seen along the arms of the substep's start.
-    for (std::size_t k = 0; k < rows_.size(); ++k) {
-        const ContactRows& row = rows_[k];
-        const BodyMotion& a = problem.motions[row.body_a];
-        const BodyMotion& b = problem.motions[row.body_b];
-        for (std::size_t i = 0; i < std::size_t(row.point_count); ++i) {
-            const PointRow& p = row.points[i];
-            const Vec3 v = relative_velocity(a, p.r_a, b, p.r_b) + row.surface_velocity;
-            multipliers_[k].slip[i] = h * without_normal(v, row.normal);
-        }
-    }
     for (const std::uint32_t i : problem.moving) {
         integrate_pose(problem.motions[i], problem.inertias[i], problem.drives[i], h);
     }
@@ -74,23 +66,27 @@ void Xpbd::predict(const StepProblem& problem, float h) {
 void Xpbd::measure(const StepProblem& problem, float h) {
     for (std::size_t k = 0; k < rows_.size(); ++k) {
         const ContactRows& row = rows_[k];
+        Contact& contact = problem.contacts[row.contact];
         const BodyMotion& a = problem.motions[row.body_a];
         const BodyMotion& b = problem.motions[row.body_b];
-        const float most = h * find_push_speed(row, problem);
+        if (contact.first_overlap > 0) {
+            contact.first_overlap =
+                max(0, contact.first_overlap - h * find_push_speed(row, problem));
+        }
+        const float bearable = max(contact.first_overlap, slop_share * row.size);
         for (std::size_t i = 0; i < std::size_t(row.point_count); ++i) {
-            const PointRow& p = row.points[i];
-            const float s = find_separation(p, row.normal, a, b);
-            // Of an old overlap only `most` is to be seen.
-            const float old_overlap = max(0, -p.separation - most);
-            multipliers_[k].separation[i] = s + old_overlap;
+            const float s = find_separation(row.points[i], row.normal, a, b);
+            const float borne = clamp(-row.points[i].separation, 0, bearable);
+            multipliers_[k].separation[i] = s + borne;
         }
     }
 }
 
-void Xpbd::correct_positions(const StepProblem& problem, float h, bool backward) {
+void Xpbd::correct_positions(const StepProblem& problem, float h) {
     const float compliance = problem.contact_compliance / (h * h);
-    for (std::size_t index = 0; index < rows_.size(); ++index) {
-        const std::size_t k = backward ? rows_.size() - 1 - index : index;
+    // Always in the same direction: one sweep leaves a residue, which is at rest only if it is the
+    // same each time.
+    for (std::size_t k = 0; k < rows_.size(); ++k) {
         const ContactRows& row = rows_[k];
         Multipliers& sum = multipliers_[k];
         Correction& a = corrections_[row.body_a];
@@ -98,37 +94,25 @@ void Xpbd::correct_positions(const StepProblem& problem, float h, bool backward)
         const Response& response_a = responses_[row.body_a];
         const Response& response_b = responses_[row.body_b];
         const Vec3 n = row.normal;
-        const auto moved = [&](const PointRow& p) {
-            return (b.linear + cross(b.angular, p.r_b)) - (a.linear + cross(a.angular, p.r_a));
-        };
-        const auto push = [&](const PointRow& p, Vec3 impulse) {
-            a.linear -= multiply(response_a.inverse_mass, impulse);
-            a.angular -= response_a.inverse_inertia * cross(p.r_a, impulse);
-            b.linear += multiply(response_b.inverse_mass, impulse);
-            b.angular += response_b.inverse_inertia * cross(p.r_b, impulse);
-        };
-
-        float load = 0;
+        // C of all the points together, then the multipliers that bring none below zero.
+        std::array<float, 4> c = {};
+        const float linear = dot(n, b.linear - a.linear);
         for (std::size_t i = 0; i < std::size_t(row.point_count); ++i) {
             const PointRow& p = row.points[i];
-            const float c = sum.separation[i] + dot(n, moved(p));
-            // (-c - a l) / (K + a), written with m = 1/K.
-            const float change = p.normal_mass * (-c - compliance * sum.normal[i]) /
-                                 (1.0f + compliance * p.normal_mass);
-            const float total = max(0, sum.normal[i] + change);
-            push(p, (total - sum.normal[i]) * n);
-            sum.normal[i] = total;
-            load += total;
+            c[i] = sum.separation[i] + linear + dot(p.turn_b, b.angular) - dot(p.turn_a, a.angular);
         }
-        if (!(load > 0)) continue;
+        const std::array<float, 4> before = sum.normal;
+        solve_normals(row, compliance, c, sum.normal);
+        float total = 0;
         for (std::size_t i = 0; i < std::size_t(row.point_count); ++i) {
             const PointRow& p = row.points[i];
-            const Vec3 slip = sum.slip[i] + without_normal(moved(p), n);
-            const Vec3 total =
-                clamp_length(sum.friction[i] - p.tangent_mass * slip, row.friction * sum.normal[i]);
-            push(p, total - sum.friction[i]);
-            sum.friction[i] = total;
+            const float change = sum.normal[i] - before[i];
+            a.angular -= change * p.spin_a;
+            b.angular += change * p.spin_b;
+            total += change;
         }
+        a.linear -= multiply(response_a.inverse_mass, total * n);
+        b.linear += multiply(response_b.inverse_mass, total * n);
     }
 }
 
@@ -156,23 +140,37 @@ void Xpbd::solve_velocities(const StepProblem& problem, float h) {
         const Response& response_b = responses_[row.body_b];
         const Vec3 n = row.normal;
         float load = 0;
-        for (std::size_t i = 0; i < std::size_t(row.point_count); ++i) {
-            if (!(sum.normal[i] > 0)) continue;
-            const PointRow& p = row.points[i];
-            load += sum.normal[i];
-            // No faster apart than before: what is faster, the push has made. No impulse in all
-            // below zero.
-            const float u = dot(n, relative_velocity(a, p.r_a, b, p.r_b));
-            const float allowed = max(0, sum.approach[i]);
-            const float change =
-                max(p.normal_mass * (min(u, allowed) - u), -inverse_h * sum.normal[i]);
-            apply_impulse(a, response_a, p.r_a, b, response_b, p.r_b, change * n);
-            sum.normal[i] = max(0, sum.normal[i] + h * change);
+        for (const float normal : sum.normal) load += normal;
+        if (!(load > 0)) continue;
 
+        std::array<float, 4> excess = {};
+        std::array<float, 4> impulses = {};
+        const float linear = dot(n, b.linear_velocity - a.linear_velocity);
+        for (std::size_t i = 0; i < std::size_t(row.point_count); ++i) {
+            const PointRow& p = row.points[i];
+            const float u =
+                linear + dot(p.turn_b, b.angular_velocity) - dot(p.turn_a, a.angular_velocity);
+            // No faster apart than before: what is faster, the push has made.
+            excess[i] = u - clamp(u, 0, max(0, sum.approach[i]));
+            impulses[i] = inverse_h * sum.normal[i];
+        }
+        const std::array<float, 4> before = impulses;
+        solve_normals(row, 0, excess, impulses);
+        for (std::size_t i = 0; i < 4; ++i) impulses[i] -= before[i];
+        push_apart(row, impulses, a, b, response_a, response_b);
+        for (std::size_t i = 0; i < 4; ++i) impulses[i] += before[i];
+        share_evenly(row, impulses);
+        load = 0;
+        for (std::size_t i = 0; i < std::size_t(row.point_count); ++i) {
+            sum.normal[i] = h * impulses[i];
+            load += sum.normal[i];
+        }
+        for (std::size_t i = 0; i < std::size_t(row.point_count); ++i) {
+            const PointRow& p = row.points[i];
             const Vec3 v =
                 without_normal(relative_velocity(a, p.r_a, b, p.r_b), n) + row.surface_velocity;
             const Vec3 total = clamp_length(sum.friction[i] - (h * p.tangent_mass) * v,
-                                            row.friction * max(sum.normal[i], 0));
+                                            row.friction * sum.normal[i]);
             apply_impulse(a, response_a, p.r_a, b, response_b, p.r_b,
                           inverse_h * (total - sum.friction[i]));
             sum.friction[i] = total;
