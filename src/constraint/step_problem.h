@@ -20,6 +20,8 @@ struct StepProblem {
     std::span<BodyMotion> motions;
     std::span<const BodyInertia> inertias;
     std::span<const BodyDrive> drives;
+    std::span<const float>
+        heights;  // of the centers of mass against gravity, m, when the step began
     std::span<const std::uint32_t> moving;  // kinematic and dynamic bodies, ascending
     std::span<Contact> contacts;
     std::span<const std::uint32_t>

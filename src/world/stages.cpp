@@ -50,6 +50,17 @@ void freeze(WorldState& world, std::uint32_t slot, Quantity quantity) {
         {body_id(world, slot), world.report.step, world.report.time, quantity});
 }
 
+// How high each body is, against gravity: an order, so that binary32 is enough.
+void find_heights(WorldState& world) {
+    const Vec3 up = normalize_or(-world.settings.gravity, {});
+    world.scratch.heights.resize(world.positions.size());
+    for (std::size_t i = 0; i < world.positions.size(); ++i) {
+        const Position& p = world.positions[i];
+        world.scratch.heights[i] =
+            float(double(up.x) * p.x + double(up.y) * p.y + double(up.z) * p.z);
+    }
+}
+
 void clear_contact(Contact& contact) {
     contact.point_count = 0;
     contact.rolling_torque = {};
@@ -109,6 +120,7 @@ void apply_changes(WorldState& world, double dt) {
         }
     }
     world.scratch.before = world.motions;
+    find_heights(world);
 }
 
 // Reads poses and velocities; renews the list of contacts, ends those whose boxes parted.
@@ -173,6 +185,7 @@ void advance(WorldState& world, double dt) {
         .motions = world.motions,
         .inertias = world.inertias,
         .drives = world.drives,
+        .heights = world.scratch.heights,
         .moving = world.scratch.moving,
         .contacts = world.contacts.slots(),
         .active = world.scratch.active,

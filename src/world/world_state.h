@@ -71,6 +71,7 @@ struct WorldState {
         std::vector<std::uint32_t> moving;
         std::vector<std::uint32_t> active;
         std::vector<BodyMotion> before;
+        std::vector<float> heights;
     } scratch;
 };
 

@@ -106,24 +106,31 @@ void SequentialImpulse::accelerate(const StepProblem& problem, float beta) {
 
 void SequentialImpulse::load_impulses(const StepProblem& problem, float h) {
     accumulated_.assign(rows_.size(), {});
+    loads_.assign(rows_.size(), 0);
+    for (std::size_t k = 0; k < rows_.size(); ++k) {
+        const Contact& contact = problem.contacts[rows_[k].contact];
+        for (std::size_t i = 0; i < std::size_t(rows_[k].point_count); ++i) {
+            accumulated_[k].normal[i] = h * contact.points[i].normal_force;
+            loads_[k] += accumulated_[k].normal[i];
+        }
+    }
+    remembered_ = loads_;
+    first_guess_.add_weights(problem, rows_, h, loads_);
     for (std::size_t k = 0; k < rows_.size(); ++k) {
         const ContactRows& row = rows_[k];
         const Contact& contact = problem.contacts[row.contact];
         Accumulated& sum = accumulated_[k];
-        for (std::size_t i = 0; i < std::size_t(row.point_count); ++i) {
-            sum.normal[i] = h * contact.points[i].normal_force;
-        }
+        const float share = (loads_[k] - remembered_[k]) / float(row.point_count);
+        for (std::size_t i = 0; i < std::size_t(row.point_count); ++i) sum.normal[i] += share;
         share_evenly(row, sum.normal);
-        float load = 0;
         for (std::size_t i = 0; i < std::size_t(row.point_count); ++i) {
             const Vec3 friction = h * without_normal(contact.points[i].friction_force, row.normal);
             sum.friction[i] = clamp_length(friction, row.friction * sum.normal[i]);
-            load += sum.normal[i];
         }
         sum.rolling = clamp_length(h * without_normal(contact.rolling_torque, row.normal),
-                                   row.rolling_friction * load);
-        sum.spinning = clamp(h * contact.spinning_torque, -row.spinning_friction * load,
-                             row.spinning_friction * load);
+                                   row.rolling_friction * loads_[k]);
+        const float most = row.spinning_friction * loads_[k];
+        sum.spinning = clamp(h * contact.spinning_torque, -most, most);
     }
 }
 

@@ -22,6 +22,7 @@
 
 #include "solver/contact_rows.h"
 #include "solver/impact.h"
+#include "solver/sequential_impulse/first_guess.h"
 
 namespace cairn {
 
@@ -57,6 +58,8 @@ private:
     std::vector<ContactRows> rows_;
     std::vector<Accumulated> accumulated_, before_, directions_;
     std::vector<Response> responses_;
+    std::vector<float> loads_, remembered_;  // total normal impulse of each row set
+    FirstGuess first_guess_;
     ImpactSolver impacts_;
 };
 
