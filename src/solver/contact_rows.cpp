@@ -9,6 +9,8 @@ namespace {
 // Sweeps over the points of one manifold: four points of a face are then level to within a few
 // percent.
 constexpr int normal_sweeps = 6;
+// The change of a load, as a share of the largest, that ends them.
+constexpr float settled_share = 1e-5f;
 
 // 1 / the largest eigenvalue of the 2x2 form q across n; 0 where nothing gives.
 template <class Form>
@@ -135,22 +137,31 @@ void refresh_rows(const StepProblem& problem, std::span<const Response> response
 void solve_normals(const ContactRows& rows, float softness, std::array<float, 4>& velocities,
                    std::array<float, 4>& loads) {
     const auto count = std::size_t(rows.point_count);
+    std::array<float, 4> mass = {};
+    for (std::size_t i = 0; i < count; ++i) {
+        const float m = rows.points[i].normal_mass;
+        mass[i] = softness == 0 ? m : m / (1.0f + softness * m);
+    }
+    float largest_change = 0;
     const auto solve_point = [&](std::size_t i) {
-        const float k = rows.coupling[i][i] + softness;
-        if (!(k > 0)) return;
-        const float load = max(0, loads[i] - (velocities[i] + softness * loads[i]) / k);
+        const float load = max(0, loads[i] - mass[i] * (velocities[i] + softness * loads[i]));
         const float change = load - loads[i];
         loads[i] = load;
-        for (std::size_t j = 0; j < count; ++j) velocities[j] += rows.coupling[j][i] * change;
+        largest_change = max(largest_change, absolute(change));
+        // All four, so that it is one vector operation: what is not there couples to nothing.
+        for (std::size_t j = 0; j < 4; ++j) velocities[j] += rows.coupling[i][j] * change;
     };
     // Projected Gauss-Seidel to and fro, on these few numbers alone.
-    const int sweeps = count > 1 ? normal_sweeps : 1;
-    for (int sweep = 0; sweep < sweeps; ++sweep) {
+    for (int sweep = 0; sweep < normal_sweeps; ++sweep) {
+        largest_change = 0;
         if (sweep % 2 == 0) {
             for (std::size_t i = 0; i < count; ++i) solve_point(i);
         } else {
             for (std::size_t i = count; i-- > 0;) solve_point(i);
         }
+        if (count == 1) return;
+        const float largest_load = max(max(loads[0], loads[1]), max(loads[2], loads[3]));
+        if (largest_change <= settled_share * largest_load) return;
     }
 }
 
