@@ -23,8 +23,15 @@ struct Pair {
     friend constexpr auto operator<=>(const Pair&, const Pair&) = default;
 };
 
-// Replaces `pairs` by all pairs of overlapping boxes, sorted. The proxies come in ascending order
-// of id.
-void find_pairs_by_brute_force(std::span<const Proxy> proxies, std::vector<Pair>& pairs);
+class BruteForce {
+public:
+    // Replaces `pairs` by all pairs of overlapping boxes, sorted. The proxies come in ascending
+    // order of id.
+    void find_pairs(std::span<const Proxy> proxies, std::vector<Pair>& pairs);
+
+private:
+    // The boxes side by side, one array a face, so that a compiler tests several at once.
+    std::vector<float> lower_x_, lower_y_, lower_z_, upper_x_, upper_y_, upper_z_;
+};
 
 }  // namespace cairn

@@ -79,9 +79,9 @@ void update_proxies(const WorldState& world, double dt, std::vector<Proxy>& prox
     }
 }
 
-void find_candidate_pairs(const WorldState& world, std::span<const Proxy> proxies,
-                          std::vector<Pair>& pairs) {
-    find_pairs_by_brute_force(proxies, pairs);
+void find_candidate_pairs(const WorldState& world, BruteForce& broad,
+                          std::span<const Proxy> proxies, std::vector<Pair>& pairs) {
+    broad.find_pairs(proxies, pairs);
     std::erase_if(pairs, [&](const Pair& pair) {
         const std::uint32_t a = world.shapes[pair.a].body;
         const std::uint32_t b = world.shapes[pair.b].body;

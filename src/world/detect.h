@@ -10,8 +10,8 @@ namespace cairn {
 void update_proxies(const WorldState& world, double dt, std::vector<Proxy>& proxies);
 
 // The pairs of shapes that may touch: boxes overlap, bodies differ, filters agree. Sorted.
-void find_candidate_pairs(const WorldState& world, std::span<const Proxy> proxies,
-                          std::vector<Pair>& pairs);
+void find_candidate_pairs(const WorldState& world, BruteForce& broad,
+                          std::span<const Proxy> proxies, std::vector<Pair>& pairs);
 
 // Who meets, and what their surfaces do together.
 void describe_contact(const WorldState& world, Contact& contact);

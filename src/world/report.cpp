@@ -89,7 +89,8 @@ std::vector<ContactReport> World::contacts() const {
     std::vector<Pair> pairs;
     std::vector<ContactReport> reports;
     update_proxies(world, world.last_dt, proxies);
-    find_candidate_pairs(world, proxies, pairs);
+    BruteForce broad;
+    find_candidate_pairs(world, broad, proxies, pairs);
     for (const Pair& pair : pairs) {
         Contact contact;
         contact.shape_a = pair.a;

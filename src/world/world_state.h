@@ -67,6 +67,7 @@ struct WorldState {
     // Room that steps use again, of no meaning between them.
     struct Scratch {
         std::vector<Proxy> proxies;
+        BruteForce broad;
         std::vector<Pair> pairs;
         std::vector<std::uint32_t> moving;
         std::vector<std::uint32_t> active;
