@@ -1,7 +1,8 @@
-// From a world to a recording: which bodies are recorded, on what lattice, and what of a step is noted.
+// From a world to a recording: which bodies are recorded, on what lattice, and what of a step is
+// noted.
 //
-// Reads the world through its public face, after each step that the track wants to keep. A scene with
-// more bodies or shapes than a page can carry is recorded in part, and the page says so.
+// Reads the world through its public face, after each step that the track wants to keep. A scene
+// with more bodies or shapes than a page can carry is recorded in part, and the page says so.
 
 #include "scene/replay.h"
 
@@ -27,7 +28,8 @@ using nlohmann::json;
 constexpr std::size_t most_page_bytes = 29'500'000;
 constexpr std::size_t most_bodies = 60'000;
 constexpr std::size_t most_shapes = 120'000;
-// Names are for reading; together they may take four megabytes, after that bodies go by their number.
+// Names are for reading; together they may take four megabytes, after that bodies go by their
+// number.
 constexpr std::size_t longest_name = 120;
 constexpr std::size_t most_name_bytes = 4'000'000;
 constexpr std::size_t longest_text = 20'000;
@@ -61,15 +63,18 @@ std::string shorten(const std::string& text, std::size_t most) {
 
 double power_of_two_below(double value) { return std::exp2(std::floor(std::log2(value))); }
 
-// The bodies that are recorded: all, or, of too many, what stands still and an even choice of the rest.
+// The bodies that are recorded: all, or, of too many, what stands still and an even choice of the
+// rest.
 std::vector<std::size_t> choose_bodies(const World& world, const std::vector<BodyId>& bodies) {
     std::vector<std::size_t> still, moving, chosen;
     for (std::size_t i = 0; i < bodies.size(); ++i) {
         (world.state(bodies[i]).kind == BodyKind::Dynamic ? moving : still).push_back(i);
     }
-    if (still.size() > most_bodies / 2 && bodies.size() > most_bodies) still.resize(most_bodies / 2);
+    if (still.size() > most_bodies / 2 && bodies.size() > most_bodies)
+        still.resize(most_bodies / 2);
     chosen = still;
-    const std::size_t room = std::min(most_bodies - std::min(most_bodies, still.size()), moving.size());
+    const std::size_t room =
+        std::min(most_bodies - std::min(most_bodies, still.size()), moving.size());
     for (std::size_t i = 0; i < room; ++i) chosen.push_back(moving[i * moving.size() / room]);
     std::sort(chosen.begin(), chosen.end());
     return chosen;
@@ -79,9 +84,9 @@ std::vector<std::size_t> choose_bodies(const World& world, const std::vector<Bod
 
 struct ReplayRecorder::Recording {
     ReplayInfo info;
-    std::size_t body_count = 0;              // of the world
-    std::vector<BodyId> bodies;              // those recorded
-    std::vector<std::uint32_t> place;        // by slot in the world: index in `bodies`, or nowhere
+    std::size_t body_count = 0;        // of the world
+    std::vector<BodyId> bodies;        // those recorded
+    std::vector<std::uint32_t> place;  // by slot in the world: index in `bodies`, or nowhere
     std::uint64_t first_step = 0;
     json header;
     std::optional<ReplayTrack> track;
@@ -135,12 +140,14 @@ json ReplayRecorder::Recording::describe_shapes(const World& world) {
             }
             const ShapeDef shape = world.shape(id);
             json geometry = std::visit(GeometryWriter{}, shape.geometry);
-            const auto [place_found, is_new] = known.try_emplace(geometry.dump(), geometries.size());
+            const auto [place_found, is_new] =
+                known.try_emplace(geometry.dump(), geometries.size());
             if (is_new) geometries.push_back(std::move(geometry));
             json entry = json::array({place_found->second});
             if (shape.local_pose != Pose{}) {
                 const auto& [p, q] = shape.local_pose;
-                for (const float value : {p.x, p.y, p.z, q.x, q.y, q.z, q.w}) entry.push_back(value);
+                for (const float value : {p.x, p.y, p.z, q.x, q.y, q.z, q.w})
+                    entry.push_back(value);
             }
             list.push_back(std::move(entry));
         }
@@ -180,7 +187,8 @@ void ReplayRecorder::Recording::describe(const World& world) {
 }
 
 Lattice ReplayRecorder::Recording::choose_lattice(const World& world) const {
-    // The scene's size: the box about all that moves, and no less than what the camera looks across.
+    // The scene's size: the box about all that moves, and no less than what the camera looks
+    // across.
     Position low = {1e300, 1e300, 1e300}, high = {-1e300, -1e300, -1e300};
     double mass = 0;
     std::size_t moving = 0;
@@ -194,7 +202,8 @@ Lattice ReplayRecorder::Recording::choose_lattice(const World& world) const {
             reach = std::max(reach, away + std::visit(ReachFinder{}, shape.geometry));
         }
         const Position& p = state.position;
-        low = {std::min(low.x, p.x - reach), std::min(low.y, p.y - reach), std::min(low.z, p.z - reach)};
+        low = {std::min(low.x, p.x - reach), std::min(low.y, p.y - reach),
+               std::min(low.z, p.z - reach)};
         high = {std::max(high.x, p.x + reach), std::max(high.y, p.y + reach),
                 std::max(high.z, p.z + reach)};
         mass += static_cast<double>(world.mass_properties(body).mass);
@@ -208,11 +217,12 @@ Lattice ReplayRecorder::Recording::choose_lattice(const World& world) const {
         size = std::max(size, std::hypot(high.x - low.x, high.y - low.y, high.z - low.z));
     }
     if (!(size > 0 && size < 1e30)) size = 1;
-    // A view 1000 pixels wide across the scene has pixels of size/1000; 2^-17 of the size is a 130th of
-    // that, and stays under a pixel when one stone fills the view. Small scenes can afford more.
+    // A view 1000 pixels wide across the scene has pixels of size/1000; 2^-17 of the size is a
+    // 130th of that, and stays under a pixel when one stone fills the view. Small scenes can afford
+    // more.
     const bool small = moving <= 1000;
-    lattice.position_pitch = power_of_two_below(size) * std::exp2(small ? -21 : -17);
-    lattice.rotation_pitch = std::exp2(small ? -18 : -14);
+    lattice.position_pitch = power_of_two_below(size) * std::exp2(small ? -20 : -17);
+    lattice.rotation_pitch = std::exp2(small ? -17 : -14);
     lattice.contact_pitch = power_of_two_below(size) * std::exp2(-15);
     lattice.separation_unit = power_of_two_below(size) * std::exp2(-24);
     // The impulse that carries a body of mean mass for one step, cut in 256.
@@ -230,8 +240,8 @@ std::vector<ContactSample> ReplayRecorder::Recording::sample(
         if (a == nowhere || b == nowhere) continue;
         for (int i = 0; i < contact.point_count; ++i) {
             const ContactPointReport& point = contact.points[static_cast<std::size_t>(i)];
-            samples.push_back({a, b, point.position, contact.normal, point.separation,
-                               point.normal_impulse});
+            samples.push_back(
+                {a, b, point.position, contact.normal, point.separation, point.normal_impulse});
         }
     }
     return samples;
@@ -247,10 +257,10 @@ void ReplayRecorder::Recording::add_frame(const World& world, bool is_last) {
     const Energy energy = world.energy();
     const FrameFigures figures = {
         static_cast<std::uint32_t>(world.last_step().step - first_step),
-        static_cast<float>(energy.kinetic),
-        static_cast<float>(energy.potential),
-        static_cast<float>(energy.total),
-        static_cast<float>(World::penetration(contacts).deepest),
+        energy.kinetic,
+        energy.potential,
+        energy.total,
+        World::penetration(contacts).deepest,
     };
     track->add(figures, positions, rotations, sample(contacts), is_last);
 
@@ -308,7 +318,7 @@ Status ReplayRecorder::write(const std::string& path) const {
     Bytes bytes = {'C', 'R', 'N', '1'};
     put_u32(bytes, static_cast<std::uint32_t>(text.size()));
     bytes.insert(bytes.end(), text.begin(), text.end());
-    while (bytes.size() % 4 != 0) bytes.push_back(0);
+    while (bytes.size() % 8 != 0) bytes.push_back(0);
     r.track->append_to(bytes);
     return write_replay_page(path, r.info.scene, bytes);
 }

@@ -1,9 +1,10 @@
 #pragma once
-// The replay: a run of a world, sampled and quantised, and the self-contained HTML page that plays it.
+// The replay: a run of a world, sampled and quantised, and the self-contained HTML page that plays
+// it.
 //
-// A page opens straight from disk with no network: the player, its styles, three.js and the recording are
-// all inside. The recording thins itself out as it grows, so that the page stays under 30 MB whatever the
-// scene.
+// A page opens straight from disk with no network: the player, its styles, three.js and the
+// recording are all inside. The recording thins itself out as it grows, so that the page stays
+// under 30 MB whatever the scene.
 
 #include <memory>
 #include <string>
@@ -19,12 +20,13 @@ struct Camera {
 };
 
 struct ReplayInfo {
-    std::string scene;                     // the scene's name
+    std::string scene;  // the scene's name
     std::string description;
-    std::vector<std::string> body_names;   // in the order of World::bodies() when the recording begins
-    std::string settings;                  // one line: solver, substeps, iterations, narrow phase, dt
+    std::vector<std::string>
+        body_names;        // in the order of World::bodies() when the recording begins
+    std::string settings;  // one line: solver, substeps, iterations, narrow phase, dt
     double dt = 1.0 / 60;
-    std::size_t step_count = 0;            // how many steps the run will take
+    std::size_t step_count = 0;  // how many steps the run will take
     Camera camera;
 };
 

@@ -2,12 +2,12 @@
 //
 // A pose frame is a list of entries, each varint(quiet << 2 | what): so many bodies that go on as
 // predicted, then one that does not. `what`: 1 position, 2 rotation, 3 both, as differences to the
-// prediction; 0 both in full, the rotation with its dropped component. A quiet rest of a frame is an
-// entry that stands one past the last body and has nothing after it.
+// prediction; 0 both in full, the rotation with its dropped component. A quiet rest of a frame is
+// an entry that stands one past the last body and has nothing after it.
 //
-// A contact frame is varint(point count), then runs, each varint(length << 2 | what) over the merge of
-// the last frame's list with this one's by bodies: 0 unchanged, 1 changed (seven differences each), 2 new
-// (body a as difference to the one before, body b, seven fields each), 3 gone.
+// A contact frame is varint(point count), then runs, each varint(length << 2 | what) over the merge
+// of the last frame's list with this one's by bodies: 0 unchanged, 1 changed (seven differences
+// each), 2 new (body a as difference to the one before, body b, seven fields each), 3 gone.
 
 #include "scene/replay_codec.h"
 
@@ -19,13 +19,14 @@ namespace cairn::scene {
 
 namespace {
 
-// Three quarters of a pitch: more than the half that rounding takes, so that noise at the edge between two
-// lattice points does not flip back and forth.
+// Three quarters of a pitch: more than the half that rounding takes, so that noise at the edge
+// between two lattice points does not flip back and forth.
 constexpr double hysteresis = 0.75;
-// The dropped component may shrink to this before another takes its place (the largest is never below
-// 0.5); at this size its error is 2.3 times that of the others.
+// The dropped component may shrink to this before another takes its place (the largest is never
+// below 0.5); at this size its error is 2.3 times that of the others.
 constexpr double smallest_dropped = 0.4;
-// Beyond 2^46 pitches (five million kilometres at 0.1 mm) positions are pinned: the page reads binary64.
+// Beyond 2^46 pitches (five million kilometres at 0.1 mm) positions are pinned: the page reads
+// binary64.
 constexpr double largest_coordinate = 70368744177664.0;
 
 enum RunKind : std::uint8_t { Unchanged, Changed, New, Gone };
@@ -82,7 +83,8 @@ void put_varint(Bytes& out, std::uint64_t value) {
 }
 
 void put_signed(Bytes& out, std::int64_t value) {
-    put_varint(out, static_cast<std::uint64_t>(value) << 1 ^ static_cast<std::uint64_t>(value >> 63));
+    put_varint(out,
+               static_cast<std::uint64_t>(value) << 1 ^ static_cast<std::uint64_t>(value >> 63));
 }
 
 std::uint64_t ByteReader::varint() {
@@ -221,7 +223,8 @@ void PoseCoder::remember(std::span<const LatticePose> frame) {
     if (fresh_) before_ = last_;
     fresh_ = false;
     for (std::size_t body = 0; body < last_.size(); ++body) {
-        if (before_[body].dropped != last_[body].dropped) before_[body].rotation = last_[body].rotation;
+        if (before_[body].dropped != last_[body].dropped)
+            before_[body].rotation = last_[body].rotation;
     }
 }
 
@@ -283,9 +286,8 @@ std::vector<LatticeContact> ContactCoder::quantise(std::vector<ContactSample> co
         const auto normal = encode_normal(contact.normal);
         fields[NormalU] = normal[0];
         fields[NormalV] = normal[1];
-        fields[Separation] =
-            encode_log(static_cast<double>(contact.separation), lattice_.separation_unit,
-                       fields[Separation]);
+        fields[Separation] = encode_log(static_cast<double>(contact.separation),
+                                        lattice_.separation_unit, fields[Separation]);
         fields[Impulse] = encode_log(static_cast<double>(contact.impulse), lattice_.impulse_unit,
                                      fields[Impulse]);
         frame.push_back(coded);

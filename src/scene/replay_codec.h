@@ -3,13 +3,15 @@
 // straight continuation of the last two frames does not foresee: what rests costs nothing.
 //
 // Positions are whole multiples of a pitch about the recording's origin. Rotations are the three
-// components of the unit quaternion other than a `dropped` one, which is kept positive and follows from
-// the unit length; it changes only when it has become small, so that the others stay smooth in time.
-// A contact point is seven integers (ContactField); sizes that span decades are kept as logarithms.
+// components of the unit quaternion other than a `dropped` one, which is kept positive and follows
+// from the unit length; it changes only when it has become small, so that the others stay smooth in
+// time. A contact point is seven integers (ContactField); sizes that span decades are kept as
+// logarithms.
 //
-// Quantising is told the prediction and keeps to it while that is within three quarters of a pitch: noise
-// below the pitch is not recorded, and no error adds up. Decoding gives back exactly the integers that
-// were coded, so thinning a recording (decode, drop, code again) loses nothing but the frames.
+// Quantising is told the prediction and keeps to it while that is within three quarters of a pitch:
+// noise below the pitch is not recorded, and no error adds up. Decoding gives back exactly the
+// integers that were coded, so thinning a recording (decode, drop, code again) loses nothing but
+// the frames.
 //
 // The page's twin of the decoder is web/replay/decode.js.
 
@@ -46,25 +48,27 @@ private:
 
 struct LatticePose {
     std::array<std::int64_t, 3> position = {};
-    std::array<std::int32_t, 3> rotation = {};  // components in the order x, y, z, w without `dropped`
-    std::uint8_t dropped = 3;                   // 0..3: x, y, z, w
+    std::array<std::int32_t, 3> rotation =
+        {};                    // components in the order x, y, z, w without `dropped`
+    std::uint8_t dropped = 3;  // 0..3: x, y, z, w
     friend bool operator==(const LatticePose&, const LatticePose&) = default;
 };
 
 // What the integers mean.
 struct Lattice {
     Position origin = {};
-    double position_pitch = 1;  // m
-    double rotation_pitch = 1;  // of a quaternion's component
-    double contact_pitch = 1;   // m, of contact points
-    double separation_unit = 1; // m: separations below it are told apart linearly, above by ratio
-    double impulse_unit = 1;    // N s, likewise
+    double position_pitch = 1;   // m
+    double rotation_pitch = 1;   // of a quaternion's component
+    double contact_pitch = 1;    // m, of contact points
+    double separation_unit = 1;  // m: separations below it are told apart linearly, above by ratio
+    double impulse_unit = 1;     // N s, likewise
 };
 
 Position decode_position(const Lattice& lattice, const LatticePose& pose);
 Quat decode_rotation(const Lattice& lattice, const LatticePose& pose);
 
-// The poses of all bodies, frame after frame: one coder writes a stream, another, fresh one reads it.
+// The poses of all bodies, frame after frame: one coder writes a stream, another, fresh one reads
+// it.
 class PoseCoder {
 public:
     PoseCoder(const Lattice& lattice, std::size_t body_count);
@@ -93,7 +97,7 @@ enum ContactField : std::uint8_t {
     Impulse,     // logarithm
 };
 inline constexpr std::size_t contact_field_count = 7;
-inline constexpr int normal_steps = 1023;
+inline constexpr int normal_steps = 2047;
 // Sixteen steps an octave: a size is kept to within 3.3 per cent.
 inline constexpr double log_steps = 16;
 

@@ -9,8 +9,9 @@
 
 namespace cairn::scene {
 
-// Writes the page to `path`. `title` may hold any bytes. `recording` is what the page's decode.js reads:
-// "CRN1", the header's length u32, the header (JSON), zeros up to a multiple of four, the track.
+// Writes the page to `path`. `title` may hold any bytes. `recording` is what the page's decode.js
+// reads: "CRN1", the header's length u32, the header (JSON), zeros up to a multiple of eight, the
+// track.
 Status write_replay_page(const std::string& path, std::string_view title, const Bytes& recording);
 
 // How many bytes the page has besides the recording, title included.

@@ -11,9 +11,9 @@ namespace cairn::scene {
 namespace {
 
 // Figures and the two sizes of a frame in the page.
-constexpr std::size_t bytes_a_frame = 28;
-// Ten minutes at 60 steps a second. Beyond, the plots have many frames to a pixel and the page's index
-// of them costs more than it shows.
+constexpr std::size_t bytes_a_frame = 44;
+// Ten minutes at 60 steps a second. Beyond, the plots have many frames to a pixel and the page's
+// index of them costs more than it shows.
 constexpr std::size_t most_frames = 36000;
 constexpr std::uint32_t no_contacts = 0xffffffffu;
 
@@ -25,7 +25,11 @@ void put_u32(Bytes& out, std::uint32_t value) {
     }
 }
 
-void put_f32(Bytes& out, float value) { put_u32(out, std::bit_cast<std::uint32_t>(value)); }
+void put_f64(Bytes& out, double value) {
+    const auto bits = std::bit_cast<std::uint64_t>(value);
+    put_u32(out, static_cast<std::uint32_t>(bits));
+    put_u32(out, static_cast<std::uint32_t>(bits >> 32));
+}
 
 ReplayTrack::ReplayTrack(const Lattice& lattice, std::size_t body_count, std::size_t budget)
     : lattice_(lattice),
@@ -55,7 +59,7 @@ void ReplayTrack::add(const FrameFigures& figures, std::span<const Position> pos
 }
 
 std::size_t ReplayTrack::byte_count() const {
-    return 4 + frames_.size() * bytes_a_frame + poses_.size() + contacts_.size();
+    return 8 + frames_.size() * bytes_a_frame + poses_.size() + contacts_.size();
 }
 
 bool ReplayTrack::is_over_budget() const {
@@ -120,11 +124,12 @@ void ReplayTrack::keep_contacts_of(std::uint64_t stride) {
 
 void ReplayTrack::append_to(Bytes& out) const {
     put_u32(out, static_cast<std::uint32_t>(frames_.size()));
+    put_u32(out, 0);
+    for (const Frame& frame : frames_) put_f64(out, frame.figures.kinetic);
+    for (const Frame& frame : frames_) put_f64(out, frame.figures.potential);
+    for (const Frame& frame : frames_) put_f64(out, frame.figures.total);
+    for (const Frame& frame : frames_) put_f64(out, frame.figures.penetration);
     for (const Frame& frame : frames_) put_u32(out, frame.figures.step);
-    for (const Frame& frame : frames_) put_f32(out, frame.figures.kinetic);
-    for (const Frame& frame : frames_) put_f32(out, frame.figures.potential);
-    for (const Frame& frame : frames_) put_f32(out, frame.figures.total);
-    for (const Frame& frame : frames_) put_f32(out, frame.figures.penetration);
     for (const Frame& frame : frames_) put_u32(out, static_cast<std::uint32_t>(frame.pose_size));
     for (const Frame& frame : frames_) {
         const auto size = frame.contact_size;

@@ -1,7 +1,7 @@
 #pragma once
-// Which frames does a recording keep, and how does it stay within its size? Frames are coded as they come
-// (replay_codec.h); when the whole outgrows its budget, every second frame goes, or, where the contacts
-// take most of the room, every second frame's contacts.
+// Which frames does a recording keep, and how does it stay within its size? Frames are coded as
+// they come (replay_codec.h); when the whole outgrows its budget, every second frame goes, or,
+// where the contacts take most of the room, every second frame's contacts.
 
 #include <cstddef>
 #include <cstdint>
@@ -17,13 +17,14 @@ namespace cairn::scene {
 // What the page plots and shows for a frame.
 struct FrameFigures {
     std::uint32_t step = 0;
-    float kinetic = 0, potential = 0, total = 0;  // J
-    float penetration = 0;                        // m, the deepest, >= 0
+    double kinetic = 0, potential = 0, total = 0;  // J
+    double penetration = 0;                        // m, the deepest, >= 0
 };
 
 class ReplayTrack {
 public:
-    // `budget` bytes for poses, contacts and figures together; the thinning never goes below two frames.
+    // `budget` bytes for poses, contacts and figures together; the thinning never goes below two
+    // frames.
     ReplayTrack(const Lattice& lattice, std::size_t body_count, std::size_t budget);
 
     // Whether the frame of this step would be kept; the last one of a run always is.
@@ -37,9 +38,9 @@ public:
     std::size_t byte_count() const;
     const Lattice& lattice() const { return lattice_; }
 
-    // Frame count u32; then, one array after the other over all frames, little-endian: step u32; kinetic,
-    // potential, total, penetration f32; bytes of pose u32; bytes of contacts u32 (2^32 - 1: not kept);
-    // then all pose bytes, all contact bytes.
+    // Frame count u32, 0 u32; then, one array after the other over all frames, little-endian:
+    // kinetic, potential, total, penetration f64; step, bytes of pose, bytes of contacts (2^32 - 1:
+    // not kept) u32; then all pose bytes, all contact bytes. To stand at a multiple of eight.
     void append_to(Bytes& out) const;
 
 private:
@@ -48,7 +49,9 @@ private:
         bool is_last = false;
         std::size_t pose_size = 0;
         std::optional<std::size_t> contact_size;
-        bool belongs_to(std::uint64_t stride) const { return is_last || figures.step % stride == 0; }
+        bool belongs_to(std::uint64_t stride) const {
+            return is_last || figures.step % stride == 0;
+        }
     };
     bool is_over_budget() const;
     void thin_out();
@@ -67,6 +70,6 @@ private:
 };
 
 void put_u32(Bytes& out, std::uint32_t value);
-void put_f32(Bytes& out, float value);
+void put_f64(Bytes& out, double value);
 
 }  // namespace cairn::scene

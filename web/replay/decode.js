@@ -137,19 +137,19 @@
       const header_size = view.getUint32(4, true);
       this.header = JSON.parse(new TextDecoder().decode(bytes.subarray(8, 8 + header_size)));
       this.body_count = this.header.bodies.names.length;
-      let at = Math.ceil((8 + header_size) / 4) * 4;
+      let at = Math.ceil((8 + header_size) / 8) * 8;
       const n = this.frame_count = view.getUint32(at, true);
-      at += 4;
+      at += 8;
       const column = (Type) => {
         const values = new Type(bytes.buffer, bytes.byteOffset + at, n);
-        at += 4 * n;
+        at += Type.BYTES_PER_ELEMENT * n;
         return values;
       };
+      this.kinetic = column(Float64Array);
+      this.potential = column(Float64Array);
+      this.total = column(Float64Array);
+      this.penetration = column(Float64Array);
       this.steps = column(Uint32Array);
-      this.kinetic = column(Float32Array);
-      this.potential = column(Float32Array);
-      this.total = column(Float32Array);
-      this.penetration = column(Float32Array);
       const pose_sizes = column(Uint32Array), contact_sizes = column(Uint32Array);
       this.times = Float64Array.from(this.steps, (step) => step * this.header.dt);
       const pose_bytes = pose_sizes.reduce((sum, size) => sum + size, 0);

@@ -1,6 +1,6 @@
 // The player: what moment is shown, and the page's life from its first to its last frame.
 //
-// Options after the address's #, joined by &: t=SECONDS or frame=N (start there), play=off, shadows=off,
+// Options after the address's #, joined by &: t=SECONDS or frame=N (start there), play=off, shadows=on|off,
 // antialias=off, theme=light|dark, contacts=on, normals=on, velocities=on, speeds=on, ui=off, select=N.
 //
 // globalThis.cairn_replay, for tests and for people with a console open:
@@ -20,7 +20,8 @@
     const dark = globalThis.matchMedia && matchMedia("(prefers-color-scheme: dark)").matches;
     return {
       given, theme: given.get("theme") || (dark ? "dark" : "light"),
-      shadows: given.get("shadows") !== "off", antialias: given.get("antialias") !== "off",
+      // null: the stage decides by who draws.
+      shadows: given.has("shadows") ? given.get("shadows") !== "off" : null, antialias: given.get("antialias") !== "off",
     };
   }
 
@@ -66,8 +67,8 @@
       set("description", header.description);
       set("settings", header.settings);
       const { stride, contact_stride, left_out } = header, notes = [];
-      if (stride > 1) notes.push(`every ${stride}th step kept`);
-      if (contact_stride > stride) notes.push(`contacts every ${contact_stride}th`);
+      if (stride > 1) notes.push(`kept: 1 step in ${stride}`);
+      if (contact_stride > stride) notes.push(`contacts of 1 step in ${contact_stride}`);
       if (left_out.bodies) notes.push(`${left_out.bodies} bodies not shown`);
       if (left_out.shapes) notes.push(`${left_out.shapes} shapes not shown`);
       set("notes", notes.join(", "));
@@ -89,6 +90,7 @@
       if (given.has("t")) this.go_to_time(Number(given.get("t")));
       else this.go_to_frame(Number(given.get("frame")) || 0);
       if (given.has("select")) this.select(Number(given.get("select")));
+      this.orbit.take_in(this.stage.seen);
       this.orbit.advance(1);
       this.draw();
       const still = globalThis.matchMedia && matchMedia("(prefers-reduced-motion: reduce)").matches;
@@ -122,7 +124,7 @@
         back: (far) => this.step_frames(far ? -10 : -1), forward: (far) => this.step_frames(far ? 10 : 1),
         first: () => this.go_to_frame(0), last: () => { this.pause(); this.go_to_frame(this.recording.frame_count - 1); },
         slower: () => this.controls.change_speed(-1), faster: () => this.controls.change_speed(1),
-        home: () => { this.set("follow", false); this.orbit.home(); this.redraw(); },
+        home: () => { this.set("follow", false); this.orbit.home(); this.orbit.take_in(this.stage.seen); this.redraw(); },
         theme: () => this.set_theme(this.options.theme === "dark" ? "light" : "dark"),
         bare: () => { document.body.classList.toggle("bare"); this.resize(); },
         help: () => { help.hidden = !help.hidden; },
@@ -164,9 +166,12 @@
     resize() {
       const dock = document.querySelector("[data-dock]"), bare = document.body.classList.contains("bare");
       const bottom = bare ? 0 : Math.max(innerHeight - dock.getBoundingClientRect().top, 0);
+      const narrow = innerWidth <= 600 && !bare, panel = document.querySelector("[data-panel]");
+      const top = narrow ? document.querySelector(".heading").getBoundingClientRect().bottom : 0;
+      const sheet = narrow && !panel.hidden ? panel.getBoundingClientRect().height + 8 : 0;
       const ratio = Math.min(globalThis.devicePixelRatio || 1, 2);
       document.documentElement.style.setProperty("--dock-height", `${bottom}px`);
-      this.stage.resize(innerWidth, innerHeight, ratio, { bottom });
+      this.stage.resize(innerWidth, innerHeight, ratio, { bottom: bottom + sheet, top });
       this.overlays.resize(this.stage.viewport, ratio);
       for (const plot of this.plots) plot.draw();
       this.redraw();
@@ -225,6 +230,14 @@
       this.frame = this.recording.frame_at(this.time);
     }
 
+    // Eight slow frames in a row, and the picture becomes simpler; unless shadows were asked for.
+    watch_pace(seconds) {
+      this.slow = seconds > 0.09 ? (this.slow || 0) + 1 : 0;
+      if (this.slow < 8 || this.stage.plain || this.options.given.get("shadows") === "on") return;
+      this.stage.draw_plainly();
+      this.resize();
+    }
+
     redraw() {
       if (this.waiting) return;
       this.waiting = requestAnimationFrame((now) => {
@@ -232,6 +245,7 @@
         const seconds = this.clock ? (now - this.clock) / 1000 : 0;
         this.clock = now;
         if (this.playing) this.run(seconds);
+        this.watch_pace(seconds);
         const gliding = this.orbit.advance(this.clock ? Math.max(seconds, 0.001) : 0.016);
         this.draw();
         if (this.playing || gliding) this.redraw(); else this.clock = null;
@@ -301,6 +315,7 @@
         this.show_frame(pose);
         this.shown = this.time;
       }
+      if (this.stage.set_glass(this.stage.find_walls(cairn.hit_wall))) this.stage.show(pose.position, pose.rotation);
       if (this.hover_at) this.hover(this.pick(...this.hover_at).body);
       this.stage.render();
     }
@@ -401,7 +416,7 @@
       this.followed = null;
       this.panel.show_body(this.selected);
       this.stage.outline_body(this.selected);
-      document.body.classList.toggle("selecting", this.selected >= 0);
+      if (innerWidth <= 600) this.resize();
       this.draw_trail();
       this.shown = null;
       this.redraw();

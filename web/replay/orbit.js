@@ -33,6 +33,37 @@
       this.place();
     }
 
+    // The scene's camera says from where to look, not through which lens: where it would cut off what
+    // happens, the point looked at moves to the middle of that, and the eye moves back.
+    take_in(balls) {
+      const { camera, viewport, covered } = this.stage;
+      const upward = Math.tan(camera.fov * Math.PI / 360) * (1 - covered / viewport.y) * 0.93;
+      const across = Math.tan(camera.fov * Math.PI / 360) * camera.aspect * 0.93;
+      const axes = [0, 1, 2].map((i) => new THREE.Vector3().setFromMatrixColumn(camera.matrixWorld, i));
+      for (let round = 0; round < 6; ++round) {
+        // Slopes of the view's edges that would just hold everything: left, right, down, up.
+        const eye = this.target.clone().addScaledVector(axes[2], this.distance);
+        const hold = [Infinity, -Infinity, Infinity, -Infinity];
+        for (const { at, reach } of balls) {
+          const to = at.clone().sub(eye), deep = Math.max(-to.dot(axes[2]), 0.05 * this.distance);
+          const x = to.dot(axes[0]) / deep, y = to.dot(axes[1]) / deep, r = reach / deep;
+          hold[0] = Math.min(hold[0], x - r);
+          hold[1] = Math.max(hold[1], x + r);
+          hold[2] = Math.min(hold[2], y - r);
+          hold[3] = Math.max(hold[3], y + r);
+        }
+        const over = Math.max(-hold[0] / across, hold[1] / across, -hold[2] / upward, hold[3] / upward);
+        if (!(over > 1.001)) break;
+        this.target.addScaledVector(axes[0], 0.5 * (hold[0] + hold[1]) * this.distance)
+          .addScaledVector(axes[1], 0.5 * (hold[2] + hold[3]) * this.distance);
+        const needed = Math.max((hold[1] - hold[0]) / 2 / across, (hold[3] - hold[2]) / 2 / upward);
+        this.distance *= Math.max(needed, 1);
+      }
+      this.now.target.copy(this.target);
+      this.now.distance = this.distance;
+      this.place();
+    }
+
     listen() {
       const { element } = this;
       element.addEventListener("pointerdown", (e) => this.press(e));

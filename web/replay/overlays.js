@@ -47,7 +47,7 @@
       this.normals = new Segments(stage.scene, { width: 2.2, head: 1, opacity: 0.95 }, 12);
       this.velocities = new Segments(stage.scene, { width: 2.6, head: 1, opacity: 0.9 }, 11);
       this.trail = new Segments(stage.scene, { width: 1.6, head: 0, opacity: 0.5, depth: true }, 10);
-      this.dots = new THREE.Points(new THREE.BufferGeometry(), cairn.dot_material({ size: 7 }));
+      this.dots = new THREE.Points(new THREE.BufferGeometry(), cairn.dot_material({ body_size: stage.typical }));
       this.dots.frustumCulled = false;
       this.dots.renderOrder = 13;
       stage.scene.add(this.dots);
@@ -79,7 +79,8 @@
       for (const segments of [this.normals, this.velocities, this.trail]) {
         segments.material.uniforms.viewport.value.copy(viewport);
       }
-      this.dots.material.uniforms.size.value = 7 * ratio;
+      this.dots.material.uniforms.ratio.value = ratio;
+      this.dots.material.uniforms.viewport_height.value = viewport.y * ratio;
     }
 
     // Square roots: impulses span decades, and a large one should not cross the whole picture.
@@ -95,6 +96,7 @@
         this.dots.geometry.setAttribute("position", new THREE.BufferAttribute(contacts.point, 3));
         this.dots.geometry.setAttribute("weight", new THREE.BufferAttribute(weight, 1));
       }
+      this.normals.material.uniforms.width.value = count > 400 ? 1.4 : 2.2;
       const length = 1.1 * this.stage.typical;
       this.normals.set(with_normals ? count : 0, (start, finish) => {
         let used = 0;

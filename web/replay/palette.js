@@ -12,15 +12,15 @@
 
   cairn.THEMES = {
     light: {
-      ground: "#e9e3d8", line: "#b3a893", wall: "#ded6c8", still: "#b9b1a3", kinematic: "#8d8577",
-      sky: "#ffffff", earth: "#cfbfa8", sun: "#fff3e0",
-      sun_strength: 0.72, sky_strength: 0.52, top_strength: 0.2, stone_gain: 1.0,
+      ground: "#e6e0d5", line: "#a3967f", wall: "#ded6c8", still: "#b9b1a3", kinematic: "#8d8577",
+      sky: "#ffffff", earth: "#d8ccbc", sun: "#fff6ea",
+      sun_strength: 0.62, sky_strength: 0.40, top_strength: 0.14, stone_gain: 1.15,
       contact: "#111418", normal: "#d4263e", velocity: "#1769d2", outline: "#14181d", trail: "#14181d",
     },
     dark: {
       ground: "#20242b", line: "#48505c", wall: "#2a2f38", still: "#5b6069", kinematic: "#767d88",
-      sky: "#dfe8ff", earth: "#343036", sun: "#fff0dc",
-      sun_strength: 0.82, sky_strength: 0.42, top_strength: 0.18, stone_gain: 0.95,
+      sky: "#dfe8ff", earth: "#5a5350", sun: "#fff0dc",
+      sun_strength: 0.74, sky_strength: 0.5, top_strength: 0.16, stone_gain: 1.05,
       contact: "#ffffff", normal: "#ff5d6c", velocity: "#62b4ff", outline: "#ffffff", trail: "#ffffff",
     },
   };

@@ -19,6 +19,19 @@
     return enter > 0 && enter <= leave ? enter : Infinity;
   }
 
+  // How far along the ray the box shape begins; Infinity where it is missed.
+  cairn.hit_wall = function (shape, start, way, placed) {
+    const frame = stage_frame(shape, placed);
+    return hit_box(start.clone().sub(frame.at).applyQuaternion(frame.back), way.clone().applyQuaternion(frame.back), shape.size);
+  };
+
+  function stage_frame(shape, { position, rotation }) {
+    const b = shape.body, turn = new THREE.Quaternion(...rotation.subarray(4 * b, 4 * b + 4));
+    const at = shape.position.clone().applyQuaternion(turn);
+    at.add(new THREE.Vector3(position[3 * b], position[3 * b + 1], position[3 * b + 2]));
+    return { at, back: turn.multiply(shape.rotation).conjugate() };
+  }
+
   // The body hit first, or -1; planes count only where nothing else is hit.
   cairn.pick_body = function (stage, position, rotation, x, y) {
     const { camera, viewport } = stage;
@@ -29,7 +42,7 @@
     const at = new THREE.Vector3(), turn = new THREE.Quaternion(), back = new THREE.Quaternion();
     const origin = new THREE.Vector3(), direction = new THREE.Vector3(), part = new THREE.Vector3();
     for (const shape of stage.shapes) {
-      if (!shape.size) continue;
+      if (!shape.size || stage.glass.includes(shape.body)) continue;
       const b = shape.body;
       at.set(position[3 * b], position[3 * b + 1], position[3 * b + 2]);
       turn.set(rotation[4 * b], rotation[4 * b + 1], rotation[4 * b + 2], rotation[4 * b + 3]);

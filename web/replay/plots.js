@@ -14,6 +14,12 @@
     return `${(value / scale).toFixed(digits)} ${prefix}${unit}`;
   };
 
+  function from_lowest(values, reference) {
+    let low = Infinity;
+    for (const v of reference) low = Math.min(low, v);
+    return values.map((v) => v - low);
+  }
+
   class Plot {
     // series: [{name, values, colour (a CSS variable), fill}]
     constructor(element, recording, { title, unit, series, from_zero }) {
@@ -31,7 +37,7 @@
       const heading = document.createElement("h2");
       heading.textContent = title;
       this.labels.prepend(heading);
-      this.element.append(this.canvas, this.labels);
+      this.element.prepend(this.labels, this.canvas);
       this.find_range();
     }
 
@@ -107,12 +113,14 @@
     }
   }
 
+  // Potential energy has no zero of its own: it is counted from its lowest value, or the kinetic energy
+  // of a tall building would be a flat line.
   cairn.make_plots = (elements, recording) => [
     new Plot(elements.energy, recording, {
       title: "Energy", unit: "J", from_zero: false, series: [
+        { name: "total", values: from_lowest(recording.total, recording.potential), colour: "--total" },
+        { name: "potential", values: from_lowest(recording.potential, recording.potential), colour: "--potential" },
         { name: "kinetic", values: recording.kinetic, colour: "--kinetic" },
-        { name: "potential", values: recording.potential, colour: "--potential" },
-        { name: "total", values: recording.total, colour: "--total" },
       ],
     }),
     new Plot(elements.penetration, recording, {

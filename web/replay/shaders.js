@@ -168,7 +168,7 @@ float grid(vec2 at, float width) {
 void main() {`],
         ["#include <color_fragment>", `
   vec2 at = (v_ground + offset) / spacing;
-  float drawn = max(0.42 * grid(at, 1.0), 0.85 * grid(at / 10.0, 1.4));
+  float drawn = max(0.32 * grid(at, 1.0), 0.62 * grid(at / 10.0, 1.4));
   diffuseColor.rgb = mix(diffuseColor.rgb, line, drawn * grid_strength);
   diffuseColor.a *= 1.0 - smoothstep(fade.x, fade.y, length(v_ground));`],
       ]);
@@ -230,16 +230,23 @@ void main() {
     },
   });
 
-  cairn.dot_material = ({ size }) => new THREE.ShaderMaterial({
+  cairn.dot_material = ({ body_size }) => new THREE.ShaderMaterial({
     transparent: true, depthTest: false, depthWrite: false,
-    uniforms: { colour: { value: new THREE.Color() }, rim: { value: new THREE.Color() }, size: { value: size } },
+    uniforms: {
+      colour: { value: new THREE.Color() }, rim: { value: new THREE.Color() }, body_size: { value: body_size },
+      ratio: { value: 1 }, viewport_height: { value: 1 },
+    },
     vertexShader: `
 attribute float weight;
-uniform float size;
+uniform float body_size;
+uniform float ratio;
+uniform float viewport_height;
 varying float v_size;
 void main() {
   gl_Position = projectionMatrix * viewMatrix * vec4(position, 1.0);
-  v_size = size * (0.6 + 0.9 * weight);
+  // As large as a sixth of a body looks, within what the eye can tell apart and what hides nothing.
+  float seen = body_size * projectionMatrix[1][1] * 0.5 * viewport_height / max(gl_Position.w, 1e-6);
+  v_size = clamp(seen / 6.0, 2.5 * ratio, 8.0 * ratio) * (0.6 + 0.7 * weight);
   gl_PointSize = v_size + 2.0;
 }`,
     fragmentShader: `
@@ -250,7 +257,8 @@ void main() {
   float away = length(gl_PointCoord - 0.5) * (v_size + 2.0);
   float cover = clamp(0.5 * v_size - away + 0.5, 0.0, 1.0);
   if (cover <= 0.0) discard;
-  gl_FragColor = vec4(mix(colour, rim, clamp(away - 0.5 * v_size + 1.8, 0.0, 1.0)), cover);
+  float rimmed = clamp(away - 0.5 * v_size + 1.6, 0.0, 1.0) * smoothstep(4.0, 7.0, v_size);
+  gl_FragColor = vec4(mix(colour, rim, rimmed), cover);
 }`,
   });
 

@@ -66,11 +66,12 @@
       const every = Math.max(1, Math.ceil(recording.frame_count / 24));
       for (let f = 0; f < recording.frame_count; f += every) frames.push(f);
       const thin = Math.max(1, Math.ceil(watched.length * frames.length / 200000));
-      const axes = [[], [], []];
+      const axes = [[], [], []], seen = [];
       for (const f of frames) {
         const { position } = recording.pose(f);
         for (let k = 0; k < watched.length; k += thin) {
           for (let i = 0; i < 3; ++i) axes[i].push(position[3 * watched[k] + i]);
+          seen.push([position.subarray(3 * watched[k], 3 * watched[k] + 3), this.reach[watched[k]]]);
         }
       }
       const sizes = watched.map((i) => this.reach[i]).sort((a, b) => a - b);
@@ -83,6 +84,10 @@
         this.bounds.min[axis] = percentile(values, 0.004) - this.typical;
         this.bounds.max[axis] = percentile(values, 0.996) + this.typical;
       });
+      // What the camera should have in view: of each of these points a ball.
+      const every_seen = Math.ceil(seen.length / 4000);
+      this.seen = seen.filter((_, i) => i % every_seen === 0)
+        .map(([at, reach]) => ({ at: vector(at), reach })).filter(({ at }) => this.bounds.containsPoint(at));
       // Still bodies near the motion belong to the picture; a huge floor slab does not set its size.
       const first = recording.pose(0).position, span = this.bounds.getSize(new THREE.Vector3()).length();
       for (const i of still) {
@@ -100,6 +105,10 @@
       const attributes = { alpha: true, antialias: this.options.antialias, preserveDrawingBuffer: true };
       const context = canvas.getContext("webgl2", attributes) || canvas.getContext("webgl", attributes);
       if (!context) throw new Error("this browser gives the page no WebGL, which it needs to draw");
+      const names = context.getExtension("WEBGL_debug_renderer_info");
+      const drawn_by = names ? String(context.getParameter(names.UNMASKED_RENDERER_WEBGL)) : "";
+      // Without a graphics processor soft shadows take seconds a frame.
+      if (this.options.shadows === null) this.options.shadows = !/swiftshader|llvmpipe|software/i.test(drawn_by);
       cairn.install_soft_shadows();
       this.renderer = new THREE.WebGLRenderer({ canvas, context, alpha: true, antialias: this.options.antialias });
       this.renderer.gammaOutput = true;
@@ -117,7 +126,7 @@
       this.sky.position.copy(this.up);
       const { side, ahead } = this.horizon();
       // The sun stands over the viewer's left shoulder, as painters like it.
-      const towards_sun = this.up.clone().multiplyScalar(1.25).addScaledVector(side, -0.75).addScaledVector(ahead, -0.42);
+      const towards_sun = this.up.clone().multiplyScalar(1.15).addScaledVector(side, -0.8).addScaledVector(ahead, -0.6);
       this.sun = this.make_light(towards_sun.normalize(), 0.09, 4096);
       // A second, broad light from straight above: its wide shadow darkens the places under and between.
       const towards_top = this.up.clone().addScaledVector(side, 0.12).normalize();
@@ -165,6 +174,12 @@
         this.scene.add(mesh);
         this.groups.push({ kind, shapes, mesh, tint });
       }
+      this.glass = [];
+      this.panes = new THREE.Group();
+      this.pane_material = new THREE.MeshBasicMaterial({ transparent: true, opacity: 0.1, depthWrite: false });
+      this.pane_edges = new THREE.EdgesGeometry(new THREE.BoxBufferGeometry(2, 2, 2));
+      this.rim_material = new THREE.LineBasicMaterial({ transparent: true, opacity: 0.4 });
+      this.scene.add(this.panes);
       this.outline = new THREE.Group();
       this.outline_material = cairn.outline_material();
       this.scene.add(this.outline);
@@ -216,17 +231,25 @@
       this.sky.groundColor = cairn.linear(theme.earth);
       this.sky.intensity = theme.sky_strength;
       this.sun.color = cairn.linear(theme.sun);
-      this.sun.intensity = theme.sun_strength;
-      this.top.intensity = theme.top_strength;
+      this.shade();
       for (const ground of this.grounds) {
         ground.mesh.material.color = cairn.linear(ground.is_floor ? theme.ground : theme.wall);
         ground.uniforms.line.value = cairn.linear(theme.line);
       }
+      this.pane_material.color = cairn.linear(theme.kinematic);
+      this.rim_material.color = cairn.linear(theme.kinematic);
       this.outline_material.uniforms.colour.value.set(theme.outline);
       const first = this.recording.pose(0).position;
       const heights = Array.from(this.reach, (_, i) => vector(first.subarray(3 * i, 3 * i + 3)).dot(this.up));
       this.own_colours = cairn.colour_bodies(this.recording, heights, this.reach, theme);
       this.paint(null);
+    }
+
+    // Where nothing casts a shadow the sun is weaker, or all would be glaring.
+    shade() {
+      const strength = this.sun.castShadow ? 1 : 0.9;
+      this.sun.intensity = this.theme.sun_strength * strength;
+      this.top.intensity = this.theme.top_strength * strength;
     }
 
     // Each body in its own colour, or, given a speed a body from 0 to 1, by that.
@@ -246,6 +269,7 @@
     show(position, rotation) {
       const at = new THREE.Vector3(), turn = new THREE.Quaternion(), size = new THREE.Vector3();
       const matrix = new THREE.Matrix4();
+      this.placed = { position, rotation };
       for (const { shapes, mesh } of this.groups) {
         const target = mesh.instanceMatrix.array;
         shapes.forEach((shape, i) => {
@@ -261,8 +285,61 @@
         });
         mesh.instanceMatrix.needsUpdate = true;
       }
+      this.hide_instances_of(this.glass);
       this.place_outline();
       this.renderer.shadowMap.needsUpdate = true;
+    }
+
+    // Walls between the eye and what moves become glass, or a pit could not be seen into. `bodies`: which.
+    // Their stones shrink to nothing, and see-through twins with drawn edges stand in their place.
+    set_glass(bodies) {
+      if (bodies.length === this.glass.length && bodies.every((body, i) => body === this.glass[i])) return false;
+      this.glass = bodies;
+      for (const old of [...this.panes.children]) this.panes.remove(old);
+      const box = this.groups.find(({ kind }) => kind === "box");
+      for (const shape of box ? box.shapes.filter((s) => bodies.includes(s.body)) : []) {
+        const pane = new THREE.Mesh(box.mesh.geometry, this.pane_material);
+        const rims = new THREE.LineSegments(this.pane_edges, this.rim_material);
+        pane.matrixAutoUpdate = false;
+        pane.matrix.copy(this.place_shape(shape, this.placed));
+        pane.add(rims);
+        this.panes.add(pane);
+      }
+      return true;
+    }
+
+    // A static box hides things if it stands before more than an eighth of some that move.
+    find_walls(hits) {
+      const { position } = this.placed, kinds = this.header.bodies.kinds, eye = this.camera.position;
+      const walls = this.shapes.filter((s) => s.kind === "box" && kinds[s.body] === "s" && s.reach > 2 * this.typical);
+      const moving = [...kinds].flatMap((kind, i) => kind === "d" ? [i] : []);
+      if (!walls.length || walls.length > 60 || !moving.length) return [];
+      const every = Math.ceil(moving.length / 64), found = new Set();
+      const watched = moving.filter((_, i) => i % every === 0);
+      for (const wall of walls) {
+        const hidden = watched.filter((body) => {
+          const way = vector(position.subarray(3 * body, 3 * body + 3)).sub(eye), far = way.length();
+          return hits(wall, eye, way.divideScalar(far), this.placed) < far - this.reach[body];
+        });
+        if (8 * hidden.length > watched.length) found.add(wall.body);
+      }
+      return [...found];
+    }
+
+    hide_instances_of(bodies) {
+      if (!bodies.length) return;
+      for (const { shapes, mesh } of this.groups) {
+        shapes.forEach((shape, i) => {
+          if (bodies.includes(shape.body)) mesh.instanceMatrix.array.fill(0, 16 * i, 16 * i + 12);
+        });
+      }
+    }
+
+    place_shape(shape, { position, rotation }) {
+      const b = shape.body;
+      const turn = new THREE.Quaternion(...rotation.subarray(4 * b, 4 * b + 4));
+      const at = shape.position.clone().applyQuaternion(turn).add(vector(position.subarray(3 * b, 3 * b + 3)));
+      return new THREE.Matrix4().compose(at, turn.multiply(shape.rotation), vector(shape.size));
     }
 
     outline_body(body) {
@@ -287,19 +364,31 @@
       }
     }
 
-    // `clear`: pixels at the bottom and right that panels cover; the picture is centred in the rest.
+    // For machines that cannot keep up: no shadows, one pixel a pixel.
+    draw_plainly() {
+      this.plain = true;
+      this.sun.castShadow = this.top.castShadow = false;
+      this.shade();
+      for (const { mesh } of this.groups) mesh.material.needsUpdate = true;
+      for (const { mesh } of this.grounds) mesh.material.needsUpdate = true;
+    }
+
+    // `clear`: pixels at the bottom and top that panels cover; the picture is centred in the rest.
     resize(width, height, ratio, clear) {
+      if (this.plain) ratio = 1;
       this.renderer.setPixelRatio(ratio);
       this.renderer.setSize(width, height, false);
-      const aspect = width / Math.max(height - clear.bottom, 1);
+      const covered = Math.min(clear.bottom + clear.top, 0.75 * height);
+      const aspect = width / (height - covered);
       // At 16:10 a lens of 36 degrees; in an upright window wider, so that as much fits across.
       const across = Math.tan(18 * Math.PI / 180) * 1.6;
       const free = aspect > 1.25 ? Math.tan(18 * Math.PI / 180) : Math.min(across / aspect * 0.86, Math.tan(38 * Math.PI / 180));
-      const share = height / Math.max(height - clear.bottom, 1);
+      const share = height / (height - covered);
       this.camera.fov = 2 * Math.atan(free * share) * 180 / Math.PI;
       this.camera.aspect = width / height;
-      this.camera.setViewOffset(width, height, 0, clear.bottom / 2, width, height);
+      this.camera.setViewOffset(width, height, 0, (clear.bottom - clear.top) / 2, width, height);
       this.viewport = new THREE.Vector2(width, height);
+      this.covered = covered;
       this.outline_material.uniforms.viewport.value.copy(this.viewport);
     }
 
