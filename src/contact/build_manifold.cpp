@@ -44,10 +44,10 @@ void push_plane_box(Manifold& manifold, const PlacedBox& box, Vec3 offset, Vec3 
                     float lowest, float max_separation) {
     const BoxFace face = face_along(box, -n);
     const Vec3 h = box.half_extents, slope = multiply_transposed(box.axes, n);
-    constexpr int turn[4][2] = {{1, 1}, {-1, 1}, {-1, -1}, {1, -1}};
+    constexpr std::int8_t turn[4][2] = {{1, 1}, {-1, 1}, {-1, -1}, {1, -1}};
     for (const auto& [sign1, sign2] : turn) {
         BoxFeature vertex;
-        vertex.signs[face.axis] = int(face.sign);
+        vertex.signs[face.axis] = face.sign < 0 ? -1 : 1;
         vertex.signs[(face.axis + 1) % 3] = sign1, vertex.signs[(face.axis + 2) % 3] = sign2;
         // From the lowest vertex, each edge climbed adds its own rise.
         Vec3 corner;
@@ -142,12 +142,12 @@ bool push_parallel_edges(Manifold& manifold, const PlacedBox& a, const Extreme& 
     const float shift = dot(e, t + on_b.center - on_a.center);
     if (absolute(shift) >= half_a + half_b) return false;
     const Vec3 half_gap = 0.5f * separation * manifold.normal;
-    for (const int sign : {-1, 1}) {
+    for (const std::int8_t sign : {std::int8_t(-1), std::int8_t(1)}) {
         const float end_a = float(sign) * half_a, end_b = shift + float(sign) * half_b;
         const bool ends_on_a = sign < 0 ? end_a > end_b : end_a < end_b;
         BoxFeature feature_a = on_a.feature, feature_b = on_b.feature;
         if (ends_on_a) feature_a.signs[on_a.level_axis] = sign;
-        if (!ends_on_a) feature_b.signs[on_b.level_axis] = turn < 0 ? -sign : sign;
+        if (!ends_on_a) feature_b.signs[on_b.level_axis] = turn < 0 ? std::int8_t(-sign) : sign;
         const float along_a = ends_on_a ? end_a : end_b;
         const float along_b = ends_on_a ? end_a - shift : float(sign) * half_b;
         push(manifold, on_a.center + along_a * e + half_gap, on_b.center + along_b * u - half_gap,

@@ -7,6 +7,8 @@
 
 #include "contact/clip_faces.h"
 
+#include <utility>
+
 namespace cairn {
 namespace {
 
@@ -34,7 +36,7 @@ struct Side {
     float Corner::*along;
     BoxFeature face;
     int axis;
-    int sign;
+    std::int8_t sign;
     float bound;
 };
 
@@ -58,32 +60,35 @@ Corner cut_edge(const Corner& in, const Corner& out, const Side& side) {
     return cut;
 }
 
-Corners clip(const Corners& polygon, const Side& side, float snap) {
+// Cuts the polygon off at the side, into `kept`; false, and nothing done, where all of it is inside.
+bool clip(Corners& polygon, const Side& side, float snap, Corners& kept) {
     const float sign = float(side.sign), bound = side.bound;
-    Corners kept;
-    std::array<Corner, ClipPolygon::max_points> corners = polygon.at;
     std::array<bool, ClipPolygon::max_points> is_inside;
+    bool all_inside = true;
     for (int i = 0; i < polygon.count; ++i) {
-        Corner& corner = corners[std::size_t(i)];
+        Corner& corner = polygon.at[std::size_t(i)];
         const float beyond = sign * (corner.*side.coordinate - bound);
         is_inside[std::size_t(i)] = beyond <= snap;
+        all_inside &= beyond <= snap;
         if (beyond > 0 && beyond <= snap) corner.*side.coordinate = bound;
     }
+    if (all_inside) return false;
+    kept.count = 0;
     for (int i = 0; i < polygon.count; ++i) {
         const int next = i + 1 == polygon.count ? 0 : i + 1;
-        const Corner &a = corners[std::size_t(i)], &b = corners[std::size_t(next)];
+        const Corner &a = polygon.at[std::size_t(i)], &b = polygon.at[std::size_t(next)];
         const bool a_in = is_inside[std::size_t(i)], b_in = is_inside[std::size_t(next)];
         if (a_in) kept.push(a);
         // A corner on the side itself is its own crossing.
         if (a_in && !b_in && a.*side.coordinate != bound) kept.push(cut_edge(a, b, side));
         if (!a_in && b_in && b.*side.coordinate != bound) kept.push(cut_edge(b, a, side));
     }
-    return kept;
+    return true;
 }
 
 BoxFeature feature_of(const BoxFace& face) {
     BoxFeature feature;
-    feature.signs[face.axis] = int(face.sign);
+    feature.signs[face.axis] = face.sign < 0 ? -1 : 1;
     return feature;
 }
 
@@ -96,7 +101,7 @@ float smallest_half_width(const PlacedBox& box, const BoxFace& face) {
 // The face's four vertices, in order around it.
 Corners corners_of(const PlacedBox& box, const BoxFace& face, Vec3 d_u, Vec3 d_v) {
     const int k1 = (face.axis + 1) % 3, k2 = (face.axis + 2) % 3;
-    constexpr int turn[4][2] = {{1, 1}, {-1, 1}, {-1, -1}, {1, -1}};
+    constexpr std::int8_t turn[4][2] = {{1, 1}, {-1, 1}, {-1, -1}, {1, -1}};
     Corners corners;
     for (const auto& [sign1, sign2] : turn) {
         BoxFeature vertex = feature_of(face);
@@ -133,7 +138,9 @@ ClipPolygon clip_faces(const PlacedBox& subject, const PlacedBox& other, Vec3 c,
     const float h_o = component(other.half_extents, face_o.axis);
 
     // The subject's face, cut by the four sides that stand about the middle of the other's.
-    Corners corners = corners_of(subject, face_s, d_u, d_v);
+    Corners both[2] = {corners_of(subject, face_s, d_u, d_v), {}};
+    Corners* corners = &both[0];
+    Corners* spare = &both[1];
     const Vec3 middle = c + h_o * m_o;
     const float p = dot(d_u, middle), q = dot(d_v, middle);
     const float h1 = component(other.half_extents, o1), h2 = component(other.half_extents, o2);
@@ -143,8 +150,10 @@ ClipPolygon clip_faces(const PlacedBox& subject, const PlacedBox& other, Vec3 c,
                            {&Corner::p, &Corner::q, face, o1, -1, p - h1},
                            {&Corner::q, &Corner::p, face, o2, 1, q + h2},
                            {&Corner::q, &Corner::p, face, o2, -1, q - h2}};
-    for (int i = 0; i < corners.count; ++i) corners.at[std::size_t(i)].of_other = face;
-    for (const Side& side : sides) corners = clip(corners, side, snap);
+    for (int i = 0; i < corners->count; ++i) corners->at[std::size_t(i)].of_other = face;
+    for (const Side& side : sides) {
+        if (clip(*corners, side, snap, *spare)) std::swap(corners, spare);
+    }
 
     // Both faces' heights along n above the plane through the subject's centre along u and v.
     const float height_o = (dot(m_o, c) + h_o) / dot(m_o, n);
@@ -152,8 +161,8 @@ ClipPolygon clip_faces(const PlacedBox& subject, const PlacedBox& other, Vec3 c,
     const float slope_p = dot(m_s, u) * steepness, slope_q = dot(m_s, v) * steepness;
     ClipPolygon polygon;
     polygon.other_p = dot(d_u, c), polygon.other_q = dot(d_v, c);
-    for (int i = 0; i < corners.count; ++i) {
-        const Corner& corner = corners.at[std::size_t(i)];
+    for (int i = 0; i < corners->count; ++i) {
+        const Corner& corner = corners->at[std::size_t(i)];
         const float height_s = h_s * steepness - corner.p * slope_p - corner.q * slope_q;
         ClipPoint& point = polygon.points[std::size_t(polygon.count++)];
         point.position = corner.p * u + corner.q * v + 0.5f * (height_s + height_o) * n;

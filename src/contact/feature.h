@@ -12,13 +12,15 @@
 namespace cairn {
 
 struct BoxFeature {
-    int signs[3] = {0, 0, 0};
+    std::int8_t signs[3] = {0, 0, 0};
 };
 
 // The smallest feature that holds both.
 constexpr BoxFeature common_feature(const BoxFeature& p, const BoxFeature& q) {
     BoxFeature common;
-    for (int k = 0; k < 3; ++k) common.signs[k] = p.signs[k] == q.signs[k] ? p.signs[k] : 0;
+    for (int k = 0; k < 3; ++k) {
+        common.signs[k] = p.signs[k] == q.signs[k] ? p.signs[k] : std::int8_t(0);
+    }
     return common;
 }
 

@@ -17,9 +17,9 @@ namespace cairn {
 namespace {
 
 // The answer along one of the 15 axes; nothing where the boxes are apart by more than that axis
-// shows.
-std::optional<Axis> axis_along(const BoxPair& pair, const SeparatingAxis& along) {
-    const BoxWitness witness = find_witness(pair, along);
+// shows and `yielding` forgives.
+std::optional<Axis> axis_along(const BoxPair& pair, const SeparatingAxis& along, float yielding) {
+    const BoxWitness witness = find_witness(pair, along, yielding);
     if (along.separation > 0 && !witness.is_on_both) return std::nullopt;
     return Axis{along.normal, along.separation, witness.point_a, witness.point_b};
 }
@@ -55,18 +55,21 @@ Axis on_nearest_feature(const BoxPair& pair, const Axis& found, AxisHint& hint) 
     };
     const Candidate candidates[] = {
         {last, preference.new_over_last},
-        {find_separating_face(pair, {}), preference.edge_over_face},
+        {find_separating_face(pair), preference.edge_over_face},
         {edge_pair_along(pair, found.normal), preference.edge_over_face},
     };
     for (const auto& [candidate, yielding] : candidates) {
         if (candidate.feature.kind == 0) continue;
         if (candidate.separation < found.separation - yielding) continue;
-        if (const std::optional<Axis> axis = axis_along(pair, candidate)) {
+        if (const std::optional<Axis> axis = axis_along(pair, candidate, yielding)) {
             hint = candidate.feature;
             return *axis;
         }
     }
-    hint = {};
+    // None is: the next step may do with the face if it is nearly as good.
+    const SeparatingAxis& face = candidates[1].axis;
+    const bool is_near = face.separation >= found.separation - preference.new_over_last;
+    hint = is_near ? face.feature : AxisHint{};
     return found;
 }
 
@@ -78,7 +81,10 @@ Axis find_axis_box_box(const Box& a, const Box& b, const Pose& b_in_a, NarrowPha
     Vec3 toward_b = pair.t == Vec3{} ? Vec3{0, 1, 0} : pair.t;
     if (method == NarrowPhase::Sat) {
         const SeparatingAxis best = find_separating_axis(pair, hint);
-        if (const std::optional<Axis> axis = axis_along(pair, best)) {
+        const AxisPreference preference = axis_preference(pair);
+        const float yielding =
+            is_same(best.feature, hint) ? preference.new_over_last : preference.edge_over_face;
+        if (const std::optional<Axis> axis = axis_along(pair, best, yielding)) {
             hint = best.feature;
             return *axis;
         }

@@ -29,6 +29,10 @@ enum class BoxAxisKind : std::uint8_t {
     EdgePair,  // across A's edges along index_a and B's along index_b
 };
 
+inline bool is_same(const AxisHint& p, const AxisHint& q) {
+    return p.kind == q.kind && p.index_a == q.index_a && p.index_b == q.index_b;
+}
+
 // The smallest half extent of either: what tolerances are measured by.
 inline float smallest_half_extent(const BoxPair& pair) {
     const Vec3 smallest = min(pair.h_a, pair.h_b);

@@ -52,42 +52,46 @@ Best best_face(const BoxPair& pair) {
     return best;
 }
 
-// The separation along e_i x u_j; `lowest` where the edges are parallel.
-float edge_separation(const BoxPair& pair, const Mat3& reach, int i, int j) {
-    const Vec3 u = column(pair.axes_b, j);
-    const int i1 = i == 2 ? 0 : i + 1, i2 = i == 0 ? 2 : i - 1;
-    const float u1 = component(u, i1), u2 = component(u, i2);
-    const float squared = u1 * u1 + u2 * u2;
-    if (squared < nearly_parallel_edges * nearly_parallel_edges) {
-        return measure_axis(pair, feature(BoxAxisKind::EdgePair, i, j)).separation;
-    }
-    // e_i x u_j has components -u2 along i1 and u1 along i2; |u_k . (e_i x u_j)| is |c_i,other|.
-    const float t_along = absolute(u1 * component(pair.t, i2) - u2 * component(pair.t, i1));
-    const float reach_a =
-        absolute(u2) * component(pair.h_a, i1) + absolute(u1) * component(pair.h_a, i2);
-    const int j1 = j == 2 ? 0 : j + 1, j2 = j == 0 ? 2 : j - 1;
-    const float c1 = component(column(reach, j1), i);
-    const float c2 = component(column(reach, j2), i);
-    const float reach_b = c2 * component(pair.h_b, j1) + c1 * component(pair.h_b, j2);
-    return (t_along - (reach_a + reach_b)) / square_root(squared);
-}
-
-Best best_edge_pair(const BoxPair& pair) {
-    const Mat3 reach = absolute(pair.axes_b);
-    Best best;
+// The best of the nine edge pairs that are better than `threshold`, if any.
+Best best_edge_pair(const BoxPair& pair, float threshold) {
+    const Vec3 u[3] = {pair.axes_b.x, pair.axes_b.y, pair.axes_b.z};
+    const float c[3][3] = {
+        {u[0].x, u[1].x, u[2].x}, {u[0].y, u[1].y, u[2].y}, {u[0].z, u[1].z, u[2].z}};
+    const float t[3] = {pair.t.x, pair.t.y, pair.t.z};
+    const float h_a[3] = {pair.h_a.x, pair.h_a.y, pair.h_a.z};
+    const float h_b[3] = {pair.h_b.x, pair.h_b.y, pair.h_b.z};
+    constexpr int next[3] = {1, 2, 0}, last[3] = {2, 0, 1};
+    Best best = {threshold, {}};
     for (int i = 0; i < 3; ++i) {
         for (int j = 0; j < 3; ++j) {
-            best.offer(edge_separation(pair, reach, i, j), feature(BoxAxisKind::EdgePair, i, j));
+            // n = e_i x u_j before it is normalised: -c_2j along i1, c_1j along i2, nothing along
+            // i. What it sees of B's axis u_k is |e_i . (u_j x u_k)|, the component i of the third.
+            const int i1 = next[i], i2 = last[i], j1 = next[j], j2 = last[j];
+            const float c1 = c[i1][j], c2 = c[i2][j];
+            const float t_along = absolute(c1 * t[i2] - c2 * t[i1]);
+            const float reach_a = absolute(c2) * h_a[i1] + absolute(c1) * h_a[i2];
+            const float reach_b = absolute(c[i][j2]) * h_b[j1] + absolute(c[i][j1]) * h_b[j2];
+            const float scaled = t_along - (reach_a + reach_b);
+            const float squared = c1 * c1 + c2 * c2;
+            const AxisHint edges = feature(BoxAxisKind::EdgePair, i, j);
+            if (squared < nearly_parallel_edges * nearly_parallel_edges) {
+                if (squared < parallel_edges * parallel_edges) continue;
+                best.offer(measure_axis(pair, edges).separation, edges);
+                continue;
+            }
+            // Normalised, a negative separation only falls: most need no square root.
+            if (scaled <= min(best.separation, 0)) continue;
+            best.offer(scaled / square_root(squared), edges);
         }
     }
     return best;
 }
 
-// The last step's axis if it is within reach of the best; else the best.
-SeparatingAxis keep_last(const BoxPair& pair, Best best, AxisHint last) {
-    if (last.kind != 0) {
+// The last step's axis if it is nearly as good as the best; else the best.
+SeparatingAxis keep_last(const BoxPair& pair, const Best& best, AxisHint last, float yielding) {
+    if (last.kind != 0 && !is_same(last, best.feature)) {
         const SeparatingAxis kept = measure_axis(pair, last);
-        if (kept.separation >= best.separation - axis_preference(pair).new_over_last) return kept;
+        if (kept.separation >= best.separation - yielding) return kept;
     }
     return measure_axis(pair, best.feature);
 }
@@ -119,17 +123,16 @@ SeparatingAxis measure_axis(const BoxPair& pair, AxisHint f) {
     return {n, separation_along(pair, n), f};
 }
 
-SeparatingAxis find_separating_face(const BoxPair& pair, AxisHint last) {
-    const bool last_was_face = BoxAxisKind(last.kind) == BoxAxisKind::FaceA ||
-                               BoxAxisKind(last.kind) == BoxAxisKind::FaceB;
-    return keep_last(pair, best_face(pair), last_was_face ? last : AxisHint{});
+SeparatingAxis find_separating_face(const BoxPair& pair) {
+    return measure_axis(pair, best_face(pair).feature);
 }
 
 SeparatingAxis find_separating_axis(const BoxPair& pair, AxisHint last) {
+    const AxisPreference preference = axis_preference(pair);
     Best best = best_face(pair);
-    const Best edges = best_edge_pair(pair);
-    if (edges.separation > best.separation + axis_preference(pair).edge_over_face) best = edges;
-    return keep_last(pair, best, last);
+    const Best edges = best_edge_pair(pair, best.separation + preference.edge_over_face);
+    if (edges.feature.kind != 0) best = edges;
+    return keep_last(pair, best, last, preference.new_over_last);
 }
 
 }  // namespace cairn

@@ -32,7 +32,7 @@ AxisPreference axis_preference(const BoxPair& pair);
 SeparatingAxis find_separating_axis(const BoxPair& pair, AxisHint last);
 
 // The best of the six face normals.
-SeparatingAxis find_separating_face(const BoxPair& pair, AxisHint last);
+SeparatingAxis find_separating_face(const BoxPair& pair);
 
 // One of the 15, measured. For parallel edges, which span no axis, the separation is minus
 // infinity.
