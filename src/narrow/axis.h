@@ -1,8 +1,8 @@
 #pragma once
 // The axis between two convex shapes: the unit that narrow-phase methods exchange.
 //
-// For disjoint shapes it is the direction of least distance; for overlapping ones the direction along
-// which the least push parts them. Everything is in shape A's frame.
+// For disjoint shapes it is the direction of least distance; for overlapping ones the direction
+// along which the least push parts them. Everything is in shape A's frame.
 
 #include <cstdint>
 
@@ -17,8 +17,8 @@ struct Axis {
     Vec3 point_b;             // of B, relative to B's origin, still along A's axes
 };
 
-// What the last step found for this pair, kept by the contact store: where two axes are as good as each
-// other the method stays with the one it had, so that a resting box keeps its contact points.
+// What the last step found for this pair, kept by the contact store: where two axes are as good as
+// each other the method stays with the one it had, so that a resting box keeps its contact points.
 struct AxisHint {
     std::uint8_t kind = 0;  // the method's own code; 0: nothing is known
     std::uint8_t index_a = 0;

@@ -2,6 +2,7 @@
 
 #include "narrow/epa.h"
 
+#include "narrow/gjk.h"
 #include "narrow/polytope.h"
 
 namespace cairn {
@@ -92,15 +93,22 @@ EpaResult find_penetration(const MinkowskiDifference& difference, const Simplex&
     if (nearest < 0) return escape_flat(start);
     Simplex witness;
     for (result.rounds = 1;; ++result.rounds) {
-        const Polytope::Face& face = polytope.face(nearest);
+        const Polytope::Face face = polytope.face(nearest);
         result.normal = face.normal;
         result.depth = face.distance;
         const MinkowskiPoint beyond = difference.support(face.normal);
         const double gain = dot(face.normal, beyond.w) - face.distance;
         const double tolerance = relative_gain * polytope.scale();
-        witness = polytope.nearest_triangle(face.distance, tolerance);
-        if (gain <= tolerance || result.rounds == max_rounds) break;
-        if (polytope.has_vertex(beyond) || !polytope.add(beyond, nearest)) break;
+        if (gain <= tolerance || result.rounds == max_rounds || polytope.has_vertex(beyond)) {
+            // D's own face may be several triangles: the witness lies on the one below the origin.
+            witness = polytope.nearest_triangle(face.distance, tolerance);
+            break;
+        }
+        witness = polytope.triangle(nearest);
+        if (!polytope.add(beyond, nearest)) {
+            reduce_triangle(witness);
+            break;
+        }
         nearest = polytope.nearest_face();
     }
     for (int i = 0; i < witness.size; ++i) {

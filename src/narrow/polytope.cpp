@@ -45,14 +45,18 @@ int Polytope::nearest_face() const {
     return nearest;
 }
 
+Simplex Polytope::triangle(int index) const {
+    Simplex corners;
+    for (const int v : face(index).vertices) corners.points[corners.size++] = vertex(v);
+    return corners;
+}
+
 Simplex Polytope::nearest_triangle(double distance, double tolerance) const {
     Simplex best;
     double best_squared = 0;
     for (int f = 0; f < face_count_; ++f) {
         if (!face(f).is_alive || face(f).distance > distance + tolerance) continue;
-        Simplex candidate;
-        candidate.size = 3;
-        for (int k = 0; k < 3; ++k) candidate.points[k] = vertex(face(f).vertices[k]);
+        Simplex candidate = triangle(f);
         reduce_triangle(candidate);
         WideVec3 point;
         for (int k = 0; k < candidate.size; ++k) {

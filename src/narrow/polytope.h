@@ -36,6 +36,8 @@ public:
     bool has_vertex(const MinkowskiPoint& point) const;
     // The largest distance of a vertex from the origin: what tolerances are measured by.
     double scale() const { return scale_; }
+    // A face's three points, without weights.
+    Simplex triangle(int index) const;
     // The point of the faces at `distance`, within `tolerance`, that is nearest to the origin.
     Simplex nearest_triangle(double distance, double tolerance) const;
 

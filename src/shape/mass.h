@@ -8,8 +8,8 @@
 
 namespace cairn {
 
-// What shapes of these densities weigh together, in the body's frame; worked in binary64, rounded once.
-// A plane weighs nothing.
+// What shapes of these densities weigh together, in the body's frame; worked in binary64, rounded
+// once. A plane weighs nothing.
 MassProperties combined_mass_properties(std::span<const ShapeDef> shapes);
 
 }  // namespace cairn
