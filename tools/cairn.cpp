@@ -13,6 +13,7 @@
 #include "cairn_terminal.h"
 #include "scene/builtin.h"
 #include "scene/check.h"
+#include "scene/json_tree.h"
 
 namespace {
 
@@ -120,6 +121,13 @@ int run_command_line(int argc, char** argv) {
     } catch (const CLI::ParseError& error) {
         // Help and the version are no failures.
         if (error.get_exit_code() == 0) return app.exit(error);
+        const std::string first = argc > 1 ? argv[1] : "";
+        if (app.get_subcommands().empty() && !first.empty() && first[0] != '-') {
+            return fail(bad_usage,
+                        fmt::format("found the command \"{}\"; allowed: run, scenes, export, "
+                                    "check, report, bench",
+                                    scene::make_printable(first)));
+        }
         return fail(bad_usage, std::string(error.what()) +
                                    "; `cairn --help` and `cairn run --help` tell more");
     }

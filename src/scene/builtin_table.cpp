@@ -44,11 +44,12 @@ constexpr Parameter cradle_parameters[] = {
 constexpr Parameter t_handle_parameters[] = {
     {"spin", 6, 0.1, 60, false, "rad/s about the stem, the axis of the middle moment"}};
 constexpr Parameter showcase_parameters[] = {
-    {"base", 7, 1, 12, true, "boxes along an edge of the pyramid"}};
+    {"base", 9, 1, 20, true, "stones in the lowest row of each pyramid"}};
 
 constexpr Builtin table[] = {
-    {"showcase", "growing dominoes set a ball rolling that runs into a pyramid",
-     "each domino is 6% larger than the one before: the first push is a finger's, the last a "
+    {"showcase", "growing dominoes set a ball rolling that runs into a row of pyramids",
+     "after the bend each domino is 9% larger than the one before: the first push is a finger's, "
+     "the last a "
      "wrecker's",
      showcase_parameters, make_showcase},
     {"drop", "a box, a ball and a bar fall on the floor",

@@ -91,7 +91,7 @@ public:
                                                   "allowed: finite numbers",
                                                   make_printable(last_token))};
         }
-        throw Fault{value_path(), describe_syntax(position, last_token, error.what())};
+        throw Fault{value_path(), describe_syntax(position, error.what())};
     }
 
 private:
@@ -155,8 +155,7 @@ private:
         return path;
     }
 
-    std::string describe_syntax(std::size_t position, const std::string& last_token,
-                                std::string_view what) const {
+    std::string describe_syntax(std::size_t position, std::string_view what) const {
         if (text_.find_first_not_of(" \t\r\n") == std::string_view::npos) {
             return "the file is empty; a scene is a JSON object with \"cairn\": 1";
         }
@@ -164,7 +163,9 @@ private:
         const std::string_view before = text_.substr(0, end);
         const auto line = std::count(before.begin(), before.end(), '\n') + 1;
         const std::size_t column = end - (before.rfind('\n') + 1);
-        if (last_token == "N" || last_token == "I" || last_token == "-I" || last_token == "Na") {
+        // The parser stops at the first letter that no JSON number has.
+        const char last = before.empty() ? ' ' : before.back();
+        if (last == 'N' || last == 'I') {
             return fmt::format(
                 "line {}, column {}: JSON has no NaN and no infinity; allowed: finite "
                 "numbers",
