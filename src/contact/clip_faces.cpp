@@ -60,7 +60,8 @@ Corner cut_edge(const Corner& in, const Corner& out, const Side& side) {
     return cut;
 }
 
-// Cuts the polygon off at the side, into `kept`; false, and nothing done, where all of it is inside.
+// Cuts the polygon off at the side, into `kept`; false, and nothing done, where all of it is
+// inside.
 bool clip(Corners& polygon, const Side& side, float snap, Corners& kept) {
     const float sign = float(side.sign), bound = side.bound;
     std::array<bool, ClipPolygon::max_points> is_inside;
