@@ -10,8 +10,9 @@
 namespace cairn {
 
 struct ManifoldPoint {
-    // The point halfway between the two surfaces, relative to A's origin and to B's. Both are kept since
-    // one shape may be a thousand times larger than the other, and the smaller one's arm must stay exact.
+    // The point halfway between the two surfaces, relative to A's origin and to B's. Both are kept
+    // since one shape may be a thousand times larger than the other, and the smaller one's arm must
+    // stay exact.
     Vec3 from_a;
     Vec3 from_b;
     float separation = 0;       // signed metres along the normal
