@@ -10,5 +10,5 @@ format=$(command -v clang-format-14 || command -v clang-format) || {
 mode="--dry-run -Werror"
 [ "${1:-}" = --fix ] && mode="-i"
 # shellcheck disable=SC2086  # the mode is two words
-find src include tools tests bench \( -name '*.h' -o -name '*.cpp' \) -print0 |
+find src include tools tests bench fuzz \( -name '*.h' -o -name '*.cpp' \) -print0 |
     xargs -0 -n 8 -P 2 "$format" --style=file $mode

@@ -12,7 +12,7 @@ set -eu
 run_packages="g++ cmake ninja-build nlohmann-json3-dev libcli11-dev libfmt-dev libjs-three"
 # Compilers and checkers; doctest; the oracles of the collision tests; the browser of the replay test.
 test_packages="$run_packages ccache clang clang-format clang-tidy libclang-rt-14-dev llvm-14
-    doctest-dev libfcl-dev libccd-dev libeigen3-dev python3 chromium ca-certificates nodejs npm"
+    doctest-dev libfcl-dev libccd-dev libeigen3-dev python3 python3-jsonschema chromium ca-certificates nodejs npm"
 
 case "${1:-}" in
     run) wanted=$run_packages ;;
