@@ -7,8 +7,7 @@
 # - it is a guest in its host: throws nothing, prints nothing, never ends the process, starts no thread;
 # - scene files and built-in scenes reach worlds, so scene/ keeps to the first of these too, all but its
 #   results and its replay, which only look on;
-# - files are of a size that can be read: 600 lines, no tabs, no space at a line's end, and 100 columns
-#   (those of C++ are clang-format's to keep);
+# - files are of a size that can be read: 600 lines, no tabs, no space at a line's end;
 # - nothing is left for later, and no path of one person's machine is in a file.
 # Prints file, line and reason for each, and fails where there is one.
 set -eu
@@ -44,8 +43,7 @@ find . \( -name node_modules -o -name build -o -name 'build-*' -o -name .git \) 
     -o -name '*.js' -o -name '*.mjs' -o -name '*.css' -o -name '*.html' -o -name '*.md' -o -name run \
     -o -name test \) -print | sed 's|^\./||' | sort -u | xargs awk '
     function complain(why) { printf "%s:%d: %s\n    %s\n", FILENAME, FNR, why, $0; bad = 1 }
-    { code = FILENAME ~ /\.(h|cpp|mjs|js)$/; document = FILENAME ~ /\.md$/; script = FILENAME ~ /\.(sh|cmake)$/ }
-    script && length($0) > 100 { complain("longer than 100 columns") }
+    { code = FILENAME ~ /\.(h|cpp|mjs|js)$/; document = FILENAME ~ /\.md$/ }
     code && FNR == 601 { complain("past 600 lines: split it where its question splits") }
     /\t/ && !/\\t/ { complain("a tab") }
     !document && /[ ]+$/ { complain("space at the end of the line") }
