@@ -89,7 +89,7 @@ Scene make_showcase(std::span<const double> values) {
     scene.description = "Dominoes, a ball, a ramp and a row of pyramids.";
     scene.duration = 11;
     scene.dt = 1.0 / 120;
-    scene.camera = {{3, 11, 19}, {-3, 2, -1}};
+    scene.camera = {{20, 10.5f, 18}, {0.5f, 0.5f, -1.5f}};
     scene.bodies.push_back(make_ground());
     scene.bodies.push_back(make_block("deck", {-12, deck / 2, -2.5}, {8, narrow(deck / 2), 5}));
 

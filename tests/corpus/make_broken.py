@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes the corpus of broken scenes: tests/corpus/broken/CLASS/NAME.json and, beside the classes, the manifest
+"""Writes the corpus of broken scenes: tests/corpus/broken/CLASS/NAME.json and, beside that folder, the manifest
 expected.tsv: file, path that the message must begin with, words that it must hold.
 
 The files are committed, so that a changed reader meets the same bytes; this script says how they came about.
@@ -8,13 +8,8 @@ Run it from anywhere; it rewrites the corpus whole.
 import json
 import pathlib
 
-
 ROOT = pathlib.Path(__file__).resolve().parent / "broken"
 EXPECTED = []
-
-
-for old in ROOT.glob("*/*.json"):
-    old.unlink()
 
 
 def write(cls, name, content, path, words):
@@ -372,7 +367,11 @@ write("not_yet_step", "tree", scene(step={"broad_phase": "tree"}), "step.broad_p
 
 def main():
     listing = "".join("\t".join(row) + "\n" for row in sorted(EXPECTED))
-    (ROOT / "expected.tsv").write_text(listing)
+    (ROOT.parent / "expected.tsv").write_text(listing)
+    kept = {row[0] for row in EXPECTED}
+    for old in ROOT.glob("*/*.json"):
+        if str(old.relative_to(ROOT)) not in kept:
+            old.unlink()
     print(f"{len(EXPECTED)} files in {len({row[0].split('/')[0] for row in EXPECTED})} classes")
 
 

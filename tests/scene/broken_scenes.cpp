@@ -1,5 +1,5 @@
 // Every broken scene of the corpus is refused with one line that begins with the path of what is
-// wrong and says what was found. Reads tests/corpus/broken/expected.tsv: file, path, words.
+// wrong and says what was found. Reads tests/corpus/expected.tsv: file, path, words.
 
 #include <doctest/doctest.h>
 
@@ -23,7 +23,7 @@ const std::string corpus = CAIRN_SOURCE_DIR "/tests/corpus/broken/";
 
 std::vector<Broken> read_manifest() {
     std::vector<Broken> list;
-    std::ifstream manifest(corpus + "expected.tsv");
+    std::ifstream manifest(CAIRN_SOURCE_DIR "/tests/corpus/expected.tsv");
     for (std::string line; std::getline(manifest, line);) {
         const std::size_t first = line.find('\t'), second = line.find('\t', first + 1);
         list.push_back({line.substr(0, first), line.substr(first + 1, second - first - 1),
