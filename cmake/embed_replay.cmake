@@ -54,7 +54,7 @@ function(embed_replay target)
   set(web ${PROJECT_SOURCE_DIR}/web/replay)
   # In the order in which they must run.
   set(player "")
-  foreach(part decode palette shaders stage orbit picking overlays plots panel controls main)
+  foreach(part decode palette shaders stage orbit picking overlays plots panel controls motion api main)
     list(APPEND player ${web}/${part}.js)
   endforeach()
   set(output ${CMAKE_CURRENT_BINARY_DIR}/replay_assets.cpp)

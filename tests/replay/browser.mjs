@@ -1,12 +1,17 @@
-// Opens replay pages in a headless Chromium that can reach no network; shared by the test beside this file
-// and by tools/make_pictures.mjs.
+// Opens replay pages in a headless Chromium that can reach no network; shared by the test beside
+// this file and by tools/make_pictures.mjs.
 //
-// open_browser() answers {browser} or {missing: what to install}. Chromium is the one that CAIRN_CHROMIUM
-// names, or Debian's. WebGL is drawn in software: a few frames a second at best.
+// open_browser() answers {browser} or {missing: what to install}. Chromium is the one that
+// CAIRN_CHROMIUM names, or Debian's. WebGL is drawn in software: a few frames a second at best.
 
 import { existsSync } from "node:fs";
 
-const chromium_places = [process.env.CAIRN_CHROMIUM, "/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"];
+const chromium_places = [
+  process.env.CAIRN_CHROMIUM,
+  "/usr/bin/chromium",
+  "/usr/bin/chromium-browser",
+  "/usr/bin/google-chrome",
+];
 
 export async function open_browser() {
   const executablePath = chromium_places.find((path) => path && existsSync(path));
@@ -19,8 +24,16 @@ export async function open_browser() {
   }
   const browser = await playwright.chromium.launch({
     executablePath,
-    args: ["--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking",
-      "--disable-component-update", "--disable-sync", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
+    args: [
+      "--no-sandbox",
+      "--disable-quic",
+      "--no-first-run",
+      "--disable-background-networking",
+      "--disable-component-update",
+      "--disable-sync",
+      "--use-angle=swiftshader",
+      "--enable-unsafe-swiftshader",
+    ],
   });
   return { browser };
 }
@@ -29,11 +42,15 @@ export async function open_browser() {
 // Answers the page and what it complained about or asked the network for.
 export async function open_replay(browser, path, options, view = {}) {
   const context = await browser.newContext({
-    viewport: { width: 640, height: 480 }, colorScheme: "light", offline: true, ...view,
+    viewport: { width: 640, height: 480 },
+    colorScheme: "light",
+    offline: true,
+    ...view,
   });
   const page = await context.newPage();
   page.setDefaultTimeout(120000);
-  const complaints = [], requests = [];
+  const complaints = [],
+    requests = [];
   page.on("console", (message) => {
     if (["error", "warning"].includes(message.type())) complaints.push(message.text());
   });

@@ -29,15 +29,16 @@
   const KEY_NAMES = { ArrowLeft: "\u2190", ArrowRight: "\u2192", Escape: "Esc" };
 
   class Controls {
-    // `actions`: a function for each name in KEYS; `scrub(x from 0 to 1)`, `scrub_start`, `scrub_end`.
+    // `actions`: a function for each name in KEYS; `scrub(x from 0 to 1)`, `scrub_start`,
+    // `scrub_end`.
     constructor(player, actions) {
       this.player = player;
       this.actions = actions;
-      const find = this.find = (name) => document.querySelector(`[data-${name}]`);
+      const find = (this.find = (name) => document.querySelector(`[data-${name}]`));
       for (const button of document.querySelectorAll("[data-do]")) {
         button.addEventListener("click", () => {
           actions[button.dataset.do](false);
-          button.blur();    // or the space bar would press it again
+          button.blur(); // or the space bar would press it again
         });
       }
       this.fill_help();
@@ -53,7 +54,8 @@
     fill_help() {
       const list = this.find("keys");
       for (const [keys, , text] of KEYS) {
-        const row = document.createElement("div"), names = document.createElement("span");
+        const row = document.createElement("div"),
+          names = document.createElement("span");
         for (const key of keys) {
           const cap = document.createElement("kbd");
           cap.textContent = KEY_NAMES[key] || key.toUpperCase();
@@ -80,7 +82,8 @@
     }
 
     change_speed(by) {
-      const at = SPEEDS.indexOf(this.player.speed), next = SPEEDS[Math.min(Math.max(at + by, 0), SPEEDS.length - 1)];
+      const at = SPEEDS.indexOf(this.player.speed),
+        next = SPEEDS[Math.min(Math.max(at + by, 0), SPEEDS.length - 1)];
       this.player.speed = next;
       this.speed_select.value = String(next);
     }
@@ -90,7 +93,8 @@
       const key = e.key === " " ? "Space" : e.key.length === 1 ? e.key.toLowerCase() : e.key;
       const found = KEYS.find(([keys]) => keys.includes(key));
       if (!found) return;
-      if (key === "Space" && e.target.closest && e.target.closest("button.contact, summary")) return;
+      if (key === "Space" && e.target.closest && e.target.closest("button.contact, summary"))
+        return;
       e.preventDefault();
       this.actions[found[1]](e.shiftKey);
     }
@@ -107,7 +111,9 @@
         this.actions.scrub_start();
         this.actions.scrub(share(e));
       });
-      area.addEventListener("pointermove", (e) => { if (this.scrubbing === e.pointerId) this.actions.scrub(share(e)); });
+      area.addEventListener("pointermove", (e) => {
+        if (this.scrubbing === e.pointerId) this.actions.scrub(share(e));
+      });
       for (const name of ["pointerup", "pointercancel"]) {
         area.addEventListener(name, (e) => {
           if (this.scrubbing !== e.pointerId) return;
@@ -118,7 +124,8 @@
     }
 
     show_time(time, last, step, step_count) {
-      const share = last > 0 ? time / last : 0, digits = last < 1 ? 4 : last < 100 ? 2 : 1;
+      const share = last > 0 ? time / last : 0,
+        digits = last < 1 ? 4 : last < 100 ? 2 : 1;
       this.readout.textContent = `${time.toFixed(digits)} / ${last.toFixed(digits)} s`;
       this.step.textContent = `step ${step} of ${step_count}`;
       for (const cursor of this.cursors) cursor.style.left = `${100 * share}%`;
@@ -126,9 +133,10 @@
     }
 
     press_button(name, on) {
-      for (const button of document.querySelectorAll(`[data-do="${name}"]`)) button.setAttribute("aria-pressed", String(on));
+      for (const button of document.querySelectorAll(`[data-do="${name}"]`))
+        button.setAttribute("aria-pressed", String(on));
     }
   }
 
   cairn.Controls = Controls;
-})(globalThis.cairn = globalThis.cairn || {});
+})((globalThis.cairn = globalThis.cairn || {}));

@@ -1,27 +1,34 @@
-// Reads the recording inside the page: the twin of src/scene/replay_codec.cpp, where the format is told.
+// Reads the recording inside the page: the twin of src/scene/replay_codec.cpp, where the format is
+// told.
 //
 // cairn.read_recording(bytes) gives the header, the figures of every frame as typed arrays, and
-// pose(frame) and contacts(frame) for any frame in any order. Frames are coded as differences, so one
-// pass over the whole stream at the start leaves a checkpoint every so many frames to go on from.
-// Positions are in metres about header.lattice.origin: binary32 is enough there, however far the scene.
+// pose(frame) and contacts(frame) for any frame in any order. Frames are coded as differences, so
+// one pass over the whole stream at the start leaves a checkpoint every so many frames to go on
+// from.
+// Positions are in metres about header.lattice.origin: binary32 is enough there, however far the
+// scene.
 "use strict";
 (function (cairn) {
-  const POSE_INTERVAL = 64;      // frames between checkpoints: a jump decodes at most as many
+  const POSE_INTERVAL = 64; // frames between checkpoints: a jump decodes at most as many
   const CONTACT_INTERVAL = 16;
   const NOT_KEPT = 0xffffffff;
-  const KEPT_FRAMES = 12;        // decoded frames that stay at hand
+  const KEPT_FRAMES = 12; // decoded frames that stay at hand
 
   class ByteCursor {
-    constructor(bytes, at) { this.bytes = bytes; this.at = at; }
+    constructor(bytes, at) {
+      this.bytes = bytes;
+      this.at = at;
+    }
 
     varint() {
       const bytes = this.bytes;
       let byte = bytes[this.at++];
       if (byte < 0x80) return byte;
-      let value = byte & 0x7f, scale = 128;
+      let value = byte & 0x7f,
+        scale = 128;
       do {
         byte = bytes[this.at++];
-        value += (byte & 0x7f) * scale;    // not by shifts: values reach beyond 32 bits
+        value += (byte & 0x7f) * scale; // not by shifts: values reach beyond 32 bits
         scale *= 128;
       } while (byte >= 0x80);
       return value;
@@ -47,9 +54,12 @@
     next() {
       this.go_straight_on(this.position, this.old_position);
       this.go_straight_on(this.rotation, this.old_rotation);
-      const { position, rotation, dropped } = this, n = dropped.length, input = this.in;
+      const { position, rotation, dropped } = this,
+        n = dropped.length,
+        input = this.in;
       for (let body = 0; body < n; ++body) {
-        const entry = input.varint(), what = entry % 4;
+        const entry = input.varint(),
+          what = entry % 4;
         body += (entry - what) / 4;
         if (body >= n) break;
         const at = 3 * body;
@@ -96,13 +106,21 @@
   // One list of contact points: bodies a and b, and seven whole numbers each in `fields`.
   function next_contacts(input, old) {
     const count = input.varint();
-    const a = new Uint32Array(count), b = new Uint32Array(count);
+    const a = new Uint32Array(count),
+      b = new Uint32Array(count);
     const fields = new Float64Array(7 * count);
-    let at = 0, from = 0, last_new = 0;
+    let at = 0,
+      from = 0,
+      last_new = 0;
     while (at < count || from < old.a.length) {
-      const run = input.varint(), what = run % 4, length = (run - what) / 4;
+      const run = input.varint(),
+        what = run % 4,
+        length = (run - what) / 4;
       if (length === 0) throw new Error("the recording's contacts are damaged");
-      if (what === 3) { from += length; continue; }
+      if (what === 3) {
+        from += length;
+        continue;
+      }
       if (what === 0) {
         if (length === count && length === old.a.length) return old;
         a.set(old.a.subarray(from, from + length), at);
@@ -120,7 +138,8 @@
         } else {
           a[at] = old.a[from];
           b[at] = old.b[from];
-          for (let k = 0; k < 7; ++k) fields[7 * at + k] = old.fields[7 * from + k] + input.signed();
+          for (let k = 0; k < 7; ++k)
+            fields[7 * at + k] = old.fields[7 * from + k] + input.signed();
           ++from;
         }
       }
@@ -138,7 +157,7 @@
       this.header = JSON.parse(new TextDecoder().decode(bytes.subarray(8, 8 + header_size)));
       this.body_count = this.header.bodies.names.length;
       let at = Math.ceil((8 + header_size) / 8) * 8;
-      const n = this.frame_count = view.getUint32(at, true);
+      const n = (this.frame_count = view.getUint32(at, true));
       at += 8;
       const column = (Type) => {
         const values = new Type(bytes.buffer, bytes.byteOffset + at, n);
@@ -150,7 +169,8 @@
       this.total = column(Float64Array);
       this.penetration = column(Float64Array);
       this.steps = column(Uint32Array);
-      const pose_sizes = column(Uint32Array), contact_sizes = column(Uint32Array);
+      const pose_sizes = column(Uint32Array),
+        contact_sizes = column(Uint32Array);
       this.times = Float64Array.from(this.steps, (step) => step * this.header.dt);
       const pose_bytes = pose_sizes.reduce((sum, size) => sum + size, 0);
       this.scan_poses(bytes, at);
@@ -168,8 +188,8 @@
     }
 
     scan_contacts(bytes, start, sizes) {
-      const input = this.contact_input = new ByteCursor(bytes, start);
-      this.contact_frame_of = new Int32Array(this.frame_count);   // index in contact_frames
+      const input = (this.contact_input = new ByteCursor(bytes, start));
+      this.contact_frame_of = new Int32Array(this.frame_count); // index in contact_frames
       this.contact_frames = [];
       this.contact_checkpoints = [];
       let list = { a: new Uint32Array(0), b: new Uint32Array(0), fields: new Float64Array(0) };
@@ -204,12 +224,15 @@
     }
 
     read_pose(stream) {
-      const n = this.body_count, lattice = this.header.lattice;
-      const position = new Float32Array(3 * n), rotation = new Float32Array(4 * n);
+      const n = this.body_count,
+        lattice = this.header.lattice;
+      const position = new Float32Array(3 * n),
+        rotation = new Float32Array(4 * n);
       for (let i = 0; i < 3 * n; ++i) position[i] = stream.position[i] * lattice.position_pitch;
       for (let body = 0; body < n; ++body) {
         const dropped = stream.dropped[body];
-        let rest = 1, next = 3 * body;
+        let rest = 1,
+          next = 3 * body;
         for (let i = 0; i < 4; ++i) {
           if (i === dropped) continue;
           const value = stream.rotation[next++] * lattice.rotation_pitch;
@@ -231,7 +254,8 @@
       const { list, at } = this.contact_checkpoints[Math.floor(index / CONTACT_INTERVAL)];
       let now = list;
       this.contact_input.at = at;
-      for (let i = 0; i < index % CONTACT_INTERVAL; ++i) now = next_contacts(this.contact_input, now);
+      for (let i = 0; i < index % CONTACT_INTERVAL; ++i)
+        now = next_contacts(this.contact_input, now);
       found = this.read_contacts(now, this.contact_frames[index]);
       if (this.contact_cache.size >= 4) {
         this.contact_cache.delete(this.contact_cache.keys().next().value);
@@ -241,15 +265,19 @@
     }
 
     read_contacts({ a, b, fields }, frame) {
-      const n = a.length, lattice = this.header.lattice;
-      const point = new Float32Array(3 * n), normal = new Float32Array(3 * n);
-      const separation = new Float32Array(n), impulse = new Float32Array(n);
+      const n = a.length,
+        lattice = this.header.lattice;
+      const point = new Float32Array(3 * n),
+        normal = new Float32Array(3 * n);
+      const separation = new Float32Array(n),
+        impulse = new Float32Array(n);
       const from_log = (code, unit) =>
         Math.sign(code) * unit * (Math.pow(2, Math.abs(code) / lattice.log_steps) - 1);
       for (let i = 0; i < n; ++i) {
         const f = 7 * i;
         for (let k = 0; k < 3; ++k) point[3 * i + k] = fields[f + k] * lattice.contact_pitch;
-        let u = fields[f + 3] / lattice.normal_steps, v = fields[f + 4] / lattice.normal_steps;
+        let u = fields[f + 3] / lattice.normal_steps,
+          v = fields[f + 4] / lattice.normal_steps;
         const z = 1 - Math.abs(u) - Math.abs(v);
         if (z < 0) {
           const unfolded = (1 - Math.abs(v)) * (u < 0 ? -1 : 1);
@@ -267,10 +295,12 @@
     }
 
     frame_at(time) {
-      let low = 0, high = this.frame_count - 1;
+      let low = 0,
+        high = this.frame_count - 1;
       while (low < high) {
         const middle = (low + high + 1) >> 1;
-        if (this.times[middle] <= time) low = middle; else high = middle - 1;
+        if (this.times[middle] <= time) low = middle;
+        else high = middle - 1;
       }
       return low;
     }
@@ -279,8 +309,8 @@
   cairn.decode_base64 = function (text) {
     const clean = text.trim();
     const padding = clean.endsWith("==") ? 2 : clean.endsWith("=") ? 1 : 0;
-    const bytes = new Uint8Array(clean.length / 4 * 3 - padding);
-    const piece = 1 << 20;    // characters at a time: a whole multiple of four
+    const bytes = new Uint8Array((clean.length / 4) * 3 - padding);
+    const piece = 1 << 20; // characters at a time: a whole multiple of four
     for (let start = 0, at = 0; start < clean.length; start += piece) {
       const binary = atob(clean.slice(start, start + piece));
       for (let i = 0; i < binary.length; ++i) bytes[at++] = binary.charCodeAt(i);
@@ -289,4 +319,4 @@
   };
 
   cairn.read_recording = (bytes) => new Recording(bytes);
-})(globalThis.cairn = globalThis.cairn || {});
+})((globalThis.cairn = globalThis.cairn || {}));

@@ -1,16 +1,9 @@
 // The player: what moment is shown, and the page's life from its first to its last frame.
 //
-// Options after the address's #, joined by &: t=SECONDS or frame=N (start there), play=off, shadows=on|off,
-// antialias=off, theme=light|dark, contacts=on, normals=on, velocities=on, speeds=on, ui=off, select=N.
-//
-// globalThis.cairn_replay, for tests and for people with a console open:
-//   frame_count, frame, time, step, body_count, playing, ready
-//   go_to_frame(n), go_to_time(seconds), step_frames(n), play(), pause(), set_speed(x)
-//   body(n): {name, kind, position, rotation, velocity, spin}    at the frame shown
-//   find(name), select(n), selected, pick(x, y), screen_position(n): [x, y] in CSS pixels
-//   contacts(): [{bodies, position, normal, separation, impulse}]
-//   set(option, on)    contacts, normals, velocities, speeds, follow, trail, plots, loop
-//   draw()             draws at once
+// Options after the address's #, joined by &: t=SECONDS or frame=N (start there), play=off,
+// shadows=on|off, antialias=off, theme=light|dark, contacts=on, normals=on, velocities=on,
+// speeds=on, ui=off, select=N, eye=X,Y,Z and target=X,Y,Z (another camera than the scene's, and
+// exactly that).
 "use strict";
 (function (cairn) {
   const SWITCHES = ["contacts", "normals", "velocities", "speeds", "follow", "trail", "loop"];
@@ -19,17 +12,31 @@
     const given = new URLSearchParams(location.hash.slice(1));
     const dark = globalThis.matchMedia && matchMedia("(prefers-color-scheme: dark)").matches;
     return {
-      given, theme: given.get("theme") || (dark ? "dark" : "light"),
+      given,
+      theme: given.get("theme") || (dark ? "dark" : "light"),
       // null: the stage decides by who draws.
-      shadows: given.has("shadows") ? given.get("shadows") !== "off" : null, antialias: given.get("antialias") !== "off",
+      shadows: given.has("shadows") ? given.get("shadows") !== "off" : null,
+      antialias: given.get("antialias") !== "off",
     };
+  }
+
+  // Three numbers, or nothing.
+  function read_point(text) {
+    const numbers = (text || "").split(",").map(Number);
+    return text && numbers.length === 3 && numbers.every(Number.isFinite) ? numbers : null;
   }
 
   class Player {
     constructor(recording) {
       this.recording = recording;
       this.header = recording.header;
+      this.motion = new cairn.Motion(recording);
       this.options = read_options();
+      const eye = read_point(this.options.given.get("eye")),
+        target = read_point(this.options.given.get("target"));
+      if (eye) this.header.camera.eye = eye;
+      if (target) this.header.camera.target = target;
+      this.camera_given = Boolean(eye || target);
       this.frame = 0;
       this.time = 0;
       this.speed = 1;
@@ -49,12 +56,16 @@
       });
       this.panel = new cairn.Panel(document.querySelector("[data-panel]"), recording, {
         select: (body) => this.select(body),
-        colour_of: (body) => "#" + this.stage.own_colours[body].clone().convertLinearToSRGB().getHexString(),
+        colour_of: (body) =>
+          "#" + this.stage.own_colours[body].clone().convertLinearToSRGB().getHexString(),
       });
-      this.plots = cairn.make_plots({
-        energy: document.querySelector("[data-plot=energy]"),
-        penetration: document.querySelector("[data-plot=penetration]"),
-      }, recording);
+      this.plots = cairn.make_plots(
+        {
+          energy: document.querySelector("[data-plot=energy]"),
+          penetration: document.querySelector("[data-plot=penetration]"),
+        },
+        recording,
+      );
       this.controls = new cairn.Controls(this, this.actions());
       this.tell_scene();
       this.listen();
@@ -62,11 +73,15 @@
     }
 
     tell_scene() {
-      const { header } = this, set = (name, text) => { document.querySelector(`[data-${name}]`).textContent = text; };
+      const { header } = this,
+        set = (name, text) => {
+          document.querySelector(`[data-${name}]`).textContent = text;
+        };
       set("title", header.scene);
       set("description", header.description);
       set("settings", header.settings);
-      const { stride, contact_stride, left_out } = header, notes = [];
+      const { stride, contact_stride, left_out } = header,
+        notes = [];
       if (stride > 1) notes.push(`kept: 1 step in ${stride}`);
       if (contact_stride > stride) notes.push(`contacts of 1 step in ${contact_stride}`);
       if (left_out.bodies) notes.push(`${left_out.bodies} bodies not shown`);
@@ -75,7 +90,7 @@
       const marks = document.querySelector("[data-marks]");
       for (const event of (header.non_finite || []).slice(0, 50)) {
         const mark = document.createElement("i");
-        mark.style.left = `${100 * event.step * header.dt / Math.max(this.last_time, header.dt)}%`;
+        mark.style.left = `${(100 * event.step * header.dt) / Math.max(this.last_time, header.dt)}%`;
         mark.title = `${header.bodies.names[event.body]} frozen at step ${event.step}: its numbers went wrong`;
         marks.append(mark);
       }
@@ -90,13 +105,18 @@
       if (given.has("t")) this.go_to_time(Number(given.get("t")));
       else this.go_to_frame(Number(given.get("frame")) || 0);
       if (given.has("select")) this.select(Number(given.get("select")));
-      this.orbit.take_in(this.stage.seen);
+      this.take_in();
       this.orbit.advance(1);
       this.draw();
       const still = globalThis.matchMedia && matchMedia("(prefers-reduced-motion: reduce)").matches;
       const placed = given.has("t") || given.has("frame");
-      if (given.get("play") !== "off" && !placed && !still && this.recording.frame_count > 1) this.play();
+      if (given.get("play") !== "off" && !placed && !still && this.recording.frame_count > 1)
+        this.play();
       else this.show_playing();
+    }
+
+    take_in() {
+      if (!this.camera_given) this.orbit.take_in(this.stage.seen);
     }
 
     listen() {
@@ -104,11 +124,17 @@
       new ResizeObserver(() => this.resize()).observe(document.querySelector("[data-dock]"));
       const hint = document.querySelector("[data-hint]");
       this.canvas.addEventListener("pointermove", (e) => {
-        if (e.pointerType === "touch" || e.buttons) { hint.hidden = true; return; }
+        if (e.pointerType === "touch" || e.buttons) {
+          hint.hidden = true;
+          return;
+        }
         this.hover_at = [e.clientX, e.clientY];
         this.redraw();
       });
-      this.canvas.addEventListener("pointerleave", () => { this.hover_at = null; this.hover(-1); });
+      this.canvas.addEventListener("pointerleave", () => {
+        this.hover_at = null;
+        this.hover(-1);
+      });
       if (globalThis.matchMedia) {
         matchMedia("(prefers-color-scheme: dark)").addEventListener("change", (e) => {
           if (!this.options.given.has("theme")) this.set_theme(e.matches ? "dark" : "light");
@@ -120,18 +146,42 @@
       const flip = (name) => () => this.set(name, !this.on[name]);
       const help = document.querySelector("[data-help]");
       const actions = {
-        play: () => this.playing ? this.pause() : this.play(),
-        back: (far) => this.step_frames(far ? -10 : -1), forward: (far) => this.step_frames(far ? 10 : 1),
-        first: () => this.go_to_frame(0), last: () => { this.pause(); this.go_to_frame(this.recording.frame_count - 1); },
-        slower: () => this.controls.change_speed(-1), faster: () => this.controls.change_speed(1),
-        home: () => { this.set("follow", false); this.orbit.home(); this.orbit.take_in(this.stage.seen); this.redraw(); },
+        play: () => (this.playing ? this.pause() : this.play()),
+        back: (far) => this.step_frames(far ? -10 : -1),
+        forward: (far) => this.step_frames(far ? 10 : 1),
+        first: () => this.go_to_frame(0),
+        last: () => {
+          this.pause();
+          this.go_to_frame(this.recording.frame_count - 1);
+        },
+        slower: () => this.controls.change_speed(-1),
+        faster: () => this.controls.change_speed(1),
+        home: () => {
+          this.set("follow", false);
+          this.orbit.home();
+          this.take_in();
+          this.redraw();
+        },
         theme: () => this.set_theme(this.options.theme === "dark" ? "light" : "dark"),
-        bare: () => { document.body.classList.toggle("bare"); this.resize(); },
-        help: () => { help.hidden = !help.hidden; },
-        escape: () => { if (help.hidden) this.select(-1); help.hidden = true; },
-        scrub_start: () => { this.was_playing = this.playing; this.pause(); },
+        bare: () => {
+          document.body.classList.toggle("bare");
+          this.resize();
+        },
+        help: () => {
+          help.hidden = !help.hidden;
+        },
+        escape: () => {
+          if (help.hidden) this.select(-1);
+          help.hidden = true;
+        },
+        scrub_start: () => {
+          this.was_playing = this.playing;
+          this.pause();
+        },
         scrub: (share) => this.go_to_time(share * this.last_time),
-        scrub_end: () => { if (this.was_playing) this.play(); },
+        scrub_end: () => {
+          if (this.was_playing) this.play();
+        },
       };
       for (const name of [...SWITCHES, "plots"]) actions[name] = flip(name);
       return actions;
@@ -164,9 +214,11 @@
     }
 
     resize() {
-      const dock = document.querySelector("[data-dock]"), bare = document.body.classList.contains("bare");
+      const dock = document.querySelector("[data-dock]"),
+        bare = document.body.classList.contains("bare");
       const bottom = bare ? 0 : Math.max(innerHeight - dock.getBoundingClientRect().top, 0);
-      const narrow = innerWidth <= 600 && !bare, panel = document.querySelector("[data-panel]");
+      const narrow = innerWidth <= 600 && !bare,
+        panel = document.querySelector("[data-panel]");
       const top = narrow ? document.querySelector(".heading").getBoundingClientRect().bottom : 0;
       const sheet = narrow && !panel.hidden ? panel.getBoundingClientRect().height + 8 : 0;
       const ratio = Math.min(globalThis.devicePixelRatio || 1, 2);
@@ -200,7 +252,10 @@
       button.setAttribute("aria-label", this.playing ? "Pause" : "Play");
     }
 
-    step_frames(count) { this.pause(); this.go_to_frame(this.frame + count); }
+    step_frames(count) {
+      this.pause();
+      this.go_to_frame(this.frame + count);
+    }
 
     go_to_frame(frame) {
       this.frame = Math.min(Math.max(Math.round(frame), 0), this.recording.frame_count - 1);
@@ -211,7 +266,8 @@
     // While paused the nearest frame is shown, exact; while playing, what lies between two.
     go_to_time(time) {
       const { times, frame_count } = this.recording;
-      const t = Math.min(Math.max(time, 0), this.last_time), before = this.recording.frame_at(t);
+      const t = Math.min(Math.max(time, 0), this.last_time),
+        before = this.recording.frame_at(t);
       const next = Math.min(before + 1, frame_count - 1);
       this.go_to_frame(times[next] - t < t - times[before] ? next : before);
     }
@@ -248,142 +304,106 @@
         this.watch_pace(seconds);
         const gliding = this.orbit.advance(this.clock ? Math.max(seconds, 0.001) : 0.016);
         this.draw();
-        if (this.playing || gliding) this.redraw(); else this.clock = null;
+        if (this.playing || gliding) this.redraw();
+        else this.clock = null;
       });
     }
 
     // What is shown.
 
-    // The pose at this.time: a frame, or the way between two.
     pose() {
-      const { recording, frame } = this, a = recording.pose(frame);
-      const span = frame + 1 < recording.frame_count ? recording.times[frame + 1] - recording.times[frame] : 0;
-      const share = span > 0 ? (this.time - recording.times[frame]) / span : 0;
-      if (share < 1e-6) return a;
-      const b = recording.pose(frame + 1), out = this.between || (this.between = {
-        position: new Float32Array(a.position.length), rotation: new Float32Array(a.rotation.length),
-      });
-      const p = out.position, q = out.rotation;
-      for (let i = 0; i < p.length; ++i) p[i] = a.position[i] + share * (b.position[i] - a.position[i]);
-      for (let i = 0; i < q.length; i += 4) {
-        const from = a.rotation, to = b.rotation;
-        const dot = from[i] * to[i] + from[i + 1] * to[i + 1] + from[i + 2] * to[i + 2] + from[i + 3] * to[i + 3];
-        const toward = dot < 0 ? -share : share;
-        for (let k = i; k < i + 4; ++k) q[k] = (1 - share) * from[k] + toward * to[k];
-        const length = Math.hypot(q[i], q[i + 1], q[i + 2], q[i + 3]) || 1;
-        for (let k = i; k < i + 4; ++k) q[k] /= length;
-      }
-      return out;
-    }
-
-    centre_of_mass({ position, rotation }, body) {
-      const local = this.header.bodies.center_of_mass[body];
-      const at = new THREE.Vector3(position[3 * body], position[3 * body + 1], position[3 * body + 2]);
-      if (!local) return at;
-      const turn = new THREE.Quaternion(...rotation.subarray(4 * body, 4 * body + 4));
-      return at.add(new THREE.Vector3(...local).applyQuaternion(turn));
-    }
-
-    // The two frames whose difference is the motion at this one: the step that led here, as a step moves
-    // bodies by the velocity that it ends with.
-    motion_frames() {
-      const last = this.frame > 0 ? this.frame : Math.min(1, this.recording.frame_count - 1);
-      const first = Math.max(last - 1, 0), seconds = this.recording.times[last] - this.recording.times[first];
-      return { a: this.recording.pose(first), b: this.recording.pose(last), seconds };
-    }
-
-    velocity(body, { a, b, seconds } = this.motion_frames()) {
-      if (!(seconds > 0)) return new THREE.Vector3();
-      return this.centre_of_mass(b, body).sub(this.centre_of_mass(a, body)).divideScalar(seconds);
-    }
-
-    spin(body, { a, b, seconds } = this.motion_frames()) {
-      const from = new THREE.Quaternion(...a.rotation.subarray(4 * body, 4 * body + 4));
-      const turn = new THREE.Quaternion(...b.rotation.subarray(4 * body, 4 * body + 4)).multiply(from.conjugate());
-      if (turn.w < 0) turn.set(-turn.x, -turn.y, -turn.z, -turn.w);
-      const axis = new THREE.Vector3(turn.x, turn.y, turn.z), sine = axis.length();
-      if (!(seconds > 0) || sine < 1e-9) return new THREE.Vector3();
-      return axis.multiplyScalar(2 * Math.atan2(sine, turn.w) / sine / seconds);
+      return this.motion.pose(this.frame, this.time);
     }
 
     draw() {
       if (!this.stage.viewport) return;
-      const pose = this.current = this.pose();
+      const pose = (this.current = this.pose());
       this.follow_body(pose);
       if (this.shown !== this.time) {
         this.stage.show(pose.position, pose.rotation);
         this.show_frame(pose);
         this.shown = this.time;
       }
-      if (this.stage.set_glass(this.stage.find_walls(cairn.hit_wall))) this.stage.show(pose.position, pose.rotation);
+      if (this.stage.set_glass(this.stage.find_walls(cairn.hit_wall)))
+        this.stage.show(pose.position, pose.rotation);
       if (this.hover_at) this.hover(this.pick(...this.hover_at).body);
       this.stage.render();
     }
 
     show_frame(pose) {
-      const { recording, frame, on } = this, contacts = recording.contacts(frame);
-      this.controls.show_time(this.time, this.last_time, recording.steps[frame], this.header.step_count);
+      const { recording, frame, on } = this,
+        contacts = recording.contacts(frame);
+      this.controls.show_time(
+        this.time,
+        this.last_time,
+        recording.steps[frame],
+        this.header.step_count,
+      );
       for (const plot of this.plots) plot.show(frame);
-      this.overlays.show_contacts(on.contacts || on.normals ? contacts : null, on.contacts, on.normals);
+      this.overlays.show_contacts(
+        on.contacts || on.normals ? contacts : null,
+        on.contacts,
+        on.normals,
+      );
       if (on.velocities || on.speeds) this.show_velocities(pose);
       if (!on.velocities) this.overlays.show_velocities(null, null);
       if (this.selected < 0) return;
-      const motion = this.motion_frames(), i = this.selected, origin = this.header.lattice.origin;
-      const exact = this.centre_of_mass(recording.pose(frame), i).toArray();
-      this.panel.update({
-        position: exact.map((v, k) => v + origin[k]), velocity: this.velocity(i, motion).toArray(),
-        spin: this.spin(i, motion).toArray(),
-      }, contacts, frame);
+      const motion = this.motion.ends(frame),
+        i = this.selected,
+        origin = this.header.lattice.origin;
+      const exact = this.motion.centre_of_mass(recording.pose(frame), i).toArray();
+      this.panel.update(
+        {
+          position: exact.map((v, k) => v + origin[k]),
+          velocity: this.motion.velocity(i, motion).toArray(),
+          spin: this.motion.spin(i, motion).toArray(),
+        },
+        contacts,
+        frame,
+      );
     }
 
     show_velocities(pose) {
-      const { kinds } = this.header.bodies, motion = this.motion_frames(), n = kinds.length;
-      const centres = new Float32Array(3 * n), velocities = new Float32Array(3 * n), speeds = new Float32Array(n);
+      const { kinds } = this.header.bodies,
+        motion = this.motion.ends(this.frame),
+        n = kinds.length;
+      const centres = new Float32Array(3 * n),
+        velocities = new Float32Array(3 * n),
+        speeds = new Float32Array(n);
       for (let i = 0; i < n; ++i) {
         if (kinds[i] === "s") continue;
-        this.centre_of_mass(pose, i).toArray(centres, 3 * i);
-        const velocity = this.velocity(i, motion);
+        this.motion.centre_of_mass(pose, i).toArray(centres, 3 * i);
+        const velocity = this.motion.velocity(i, motion);
         velocity.toArray(velocities, 3 * i);
         speeds[i] = velocity.length();
       }
       if (this.on.velocities) this.overlays.show_velocities(centres, velocities);
       if (!this.on.speeds) return;
-      const scale = this.speed_scale();
+      const scale = this.motion.speed_scale();
+      document.querySelector("[data-fastest]").textContent = `${scale.toPrecision(2)} m/s`;
       this.stage.paint(speeds.map((speed) => Math.sqrt(speed / scale)));
     }
 
-    // The speed at the warm end of the colours: what almost no body exceeds, in the whole recording.
-    speed_scale() {
-      if (this.fastest) return this.fastest;
-      const { recording } = this, all = [], every = Math.max(1, Math.ceil(recording.frame_count / 30));
-      const moving = [...this.header.bodies.kinds].flatMap((k, i) => k === "s" ? [] : [i]);
-      const thin = Math.max(1, Math.ceil(moving.length / 1000));
-      for (let f = 1; f < recording.frame_count; f += every) {
-        const a = recording.pose(f - 1), b = recording.pose(f), seconds = recording.times[f] - recording.times[f - 1];
-        for (let k = 0; k < moving.length; k += thin) {
-          const i = 3 * moving[k], way = [0, 1, 2].map((j) => b.position[i + j] - a.position[i + j]);
-          all.push(Math.hypot(...way) / seconds);
-        }
-      }
-      all.sort((a, b) => a - b);
-      this.fastest = Math.max(all.length ? all[Math.floor(0.99 * (all.length - 1))] : 0, 1e-3);
-      document.querySelector("[data-fastest]").textContent = `${this.fastest.toPrecision(2)} m/s`;
-      return this.fastest;
-    }
-
     follow_body(pose) {
-      if (!this.on.follow || this.selected < 0) { this.followed = null; return; }
-      const at = this.centre_of_mass(pose, this.selected);
+      if (!this.on.follow || this.selected < 0) {
+        this.followed = null;
+        return;
+      }
+      const at = this.motion.centre_of_mass(pose, this.selected);
       if (this.followed) this.orbit.shift(at.clone().sub(this.followed));
       else this.orbit.look_at(at);
       this.followed = at;
     }
 
     draw_trail() {
-      if (!this.on.trail || this.selected < 0) { this.overlays.show_trail(null); return; }
-      const { recording } = this, path = new Float32Array(3 * recording.frame_count);
+      if (!this.on.trail || this.selected < 0) {
+        this.overlays.show_trail(null);
+        return;
+      }
+      const { recording } = this,
+        path = new Float32Array(3 * recording.frame_count);
       for (let f = 0; f < recording.frame_count; ++f) {
-        this.centre_of_mass(recording.pose(f), this.selected).toArray(path, 3 * f);
+        this.motion.centre_of_mass(recording.pose(f), this.selected).toArray(path, 3 * f);
       }
       this.overlays.show_trail(path);
     }
@@ -407,7 +427,8 @@
       const shown = named ? body : -1;
       if (this.stage.hovered === shown) return;
       this.stage.hovered = shown;
-      if (this.on.speeds) this.shown = null; else this.stage.paint(null);
+      if (this.on.speeds) this.shown = null;
+      else this.stage.paint(null);
       this.redraw();
     }
 
@@ -426,52 +447,15 @@
       const { body, distance } = this.pick(x, y);
       if (body < 0) return;
       const ray = new THREE.Raycaster();
-      ray.setFromCamera(new THREE.Vector2(2 * x / innerWidth - 1, 1 - 2 * y / innerHeight), this.stage.camera);
-      this.orbit.look_at(ray.ray.at(distance, new THREE.Vector3()), Math.min(this.orbit.distance, 0.55 * distance));
+      ray.setFromCamera(
+        new THREE.Vector2((2 * x) / innerWidth - 1, 1 - (2 * y) / innerHeight),
+        this.stage.camera,
+      );
+      this.orbit.look_at(
+        ray.ray.at(distance, new THREE.Vector3()),
+        Math.min(this.orbit.distance, 0.55 * distance),
+      );
     }
-  }
-
-  function make_api(player) {
-    const { recording, header, stage } = player, origin = header.lattice.origin;
-    const world = (v) => [v.x + origin[0], v.y + origin[1], v.z + origin[2]];
-    const list = (array, i, n) => Array.from(array.subarray(n * i, n * i + n));
-    return {
-      get ready() { return true; },
-      get frame_count() { return recording.frame_count; },
-      get body_count() { return recording.body_count; },
-      get frame() { return player.frame; },
-      get time() { return player.time; },
-      get step() { return recording.steps[player.frame]; },
-      get playing() { return player.playing; },
-      get selected() { return player.selected; },
-      header,
-      go_to_frame: (n) => player.go_to_frame(n), go_to_time: (t) => player.go_to_time(t),
-      step_frames: (n) => player.step_frames(n), play: () => player.play(), pause: () => player.pause(),
-      set_speed: (x) => { player.speed = x; },
-      set: (option, on) => player.set(option, on),
-      select: (n) => player.select(n), find: (name) => header.bodies.names.indexOf(name),
-      pick: (x, y) => player.pick(x, y).body,
-      draw: () => { player.orbit.advance(1); player.draw(); },
-      body: (n) => {
-        const pose = recording.pose(player.frame), p = list(pose.position, n, 3);
-        return {
-          name: header.bodies.names[n], kind: header.bodies.kinds[n], position: p.map((v, k) => v + origin[k]),
-          rotation: list(pose.rotation, n, 4), velocity: player.velocity(n).toArray(), spin: player.spin(n).toArray(),
-        };
-      },
-      screen_position: (n) => {
-        const at = player.centre_of_mass(player.pose(), n).project(stage.camera);
-        return [(at.x + 1) / 2 * stage.viewport.x, (1 - at.y) / 2 * stage.viewport.y];
-      },
-      contacts: () => {
-        const c = recording.contacts(player.frame);
-        return c ? Array.from(c.a, (a, i) => ({
-          bodies: [header.bodies.names[a], header.bodies.names[c.b[i]]],
-          position: world(new THREE.Vector3(...list(c.point, i, 3))), normal: list(c.normal, i, 3),
-          separation: c.separation[i], impulse: c.impulse[i],
-        })) : [];
-      },
-    };
   }
 
   cairn.start = function () {
@@ -479,7 +463,7 @@
       const source = document.querySelector("[data-recording]");
       const recording = cairn.read_recording(cairn.decode_base64(source.textContent));
       source.remove();
-      globalThis.cairn_replay = make_api(new Player(recording));
+      globalThis.cairn_replay = cairn.make_api(new Player(recording));
       document.body.classList.add("ready");
     } catch (error) {
       const message = document.querySelector("[data-failure]");
@@ -488,5 +472,5 @@
       throw error;
     }
   };
-})(globalThis.cairn = globalThis.cairn || {});
+})((globalThis.cairn = globalThis.cairn || {}));
 cairn.start();

@@ -1,4 +1,5 @@
-// What is drawn over the stones on demand: contact points, normals, velocities, the trail of a body.
+// What is drawn over the stones on demand: contact points, normals, velocities, the trail of a
+// body.
 "use strict";
 (function (cairn) {
   const QUAD = new Float32Array([-1, 0, 0, 1, 0, 0, 1, 1, 0, -1, 1, 0]);
@@ -22,7 +23,12 @@
       geometry.setAttribute("position", new THREE.BufferAttribute(QUAD, 3));
       geometry.setIndex([0, 1, 2, 0, 2, 3]);
       for (const name of ["start", "finish"]) {
-        geometry.setAttribute(name, new THREE.InstancedBufferAttribute(new Float32Array(3 * this.room), 3).setUsage(THREE.DynamicDrawUsage));
+        geometry.setAttribute(
+          name,
+          new THREE.InstancedBufferAttribute(new Float32Array(3 * this.room), 3).setUsage(
+            THREE.DynamicDrawUsage,
+          ),
+        );
       }
       this.mesh.geometry.dispose();
       this.mesh.geometry = geometry;
@@ -46,8 +52,15 @@
       this.stage = stage;
       this.normals = new Segments(stage.scene, { width: 2.2, head: 1, opacity: 0.95 }, 12);
       this.velocities = new Segments(stage.scene, { width: 2.6, head: 1, opacity: 0.9 }, 11);
-      this.trail = new Segments(stage.scene, { width: 1.6, head: 0, opacity: 0.5, depth: true }, 10);
-      this.dots = new THREE.Points(new THREE.BufferGeometry(), cairn.dot_material({ body_size: stage.typical }));
+      this.trail = new Segments(
+        stage.scene,
+        { width: 1.6, head: 0, opacity: 0.5, depth: true },
+        10,
+      );
+      this.dots = new THREE.Points(
+        new THREE.BufferGeometry(),
+        cairn.dot_material({ body_size: stage.typical }),
+      );
       this.dots.frustumCulled = false;
       this.dots.renderOrder = 13;
       stage.scene.add(this.dots);
@@ -56,8 +69,10 @@
 
     // An impulse that most contacts stay below: its arrow is about a body long.
     find_scale() {
-      const { recording } = this.stage, all = [];
-      const frames = recording.contact_frames, every = Math.max(1, Math.ceil(frames.length / 40));
+      const { recording } = this.stage,
+        all = [];
+      const frames = recording.contact_frames,
+        every = Math.max(1, Math.ceil(frames.length / 40));
       for (let i = 0; i < frames.length; i += every) {
         const { impulse } = recording.contacts(frames[i]);
         const thin = Math.max(1, Math.ceil(impulse.length / 2000));
@@ -84,7 +99,9 @@
     }
 
     // Square roots: impulses span decades, and a large one should not cross the whole picture.
-    strength(impulse) { return Math.min(Math.sqrt(impulse / this.impulse_scale), 2.5); }
+    strength(impulse) {
+      return Math.min(Math.sqrt(impulse / this.impulse_scale), 2.5);
+    }
 
     show_contacts(contacts, with_points, with_normals) {
       const count = contacts ? contacts.a.length : 0;
@@ -115,7 +132,8 @@
 
     // An arrow is the way in a quarter of a second.
     show_velocities(centres, velocities) {
-      const count = velocities ? velocities.length / 3 : 0, still = 0.02 * this.stage.typical;
+      const count = velocities ? velocities.length / 3 : 0,
+        still = 0.02 * this.stage.typical;
       this.velocities.set(count, (start, finish) => {
         let used = 0;
         for (let i = 0; i < count; ++i) {
@@ -143,4 +161,4 @@
   }
 
   cairn.Overlays = Overlays;
-})(globalThis.cairn = globalThis.cairn || {});
+})((globalThis.cairn = globalThis.cairn || {}));

@@ -7,7 +7,8 @@
     const text = value.toFixed(digits);
     return Number(text) === 0 ? (0).toFixed(digits) : text;
   };
-  const triple = (x, y, z) => [x, y, z].map((v) => number(v, Math.abs(v) >= 1000 ? 1 : 3)).join(", ");
+  const triple = (x, y, z) =>
+    [x, y, z].map((v) => number(v, Math.abs(v) >= 1000 ? 1 : 3)).join(", ");
 
   function make(tag, text, name) {
     const element = document.createElement(tag);
@@ -19,8 +20,10 @@
   function describe_geometry(g) {
     const metres = (v) => cairn.format_si(v, "m");
     if (g.kind === "sphere") return `sphere, radius ${metres(g.radius)}`;
-    if (g.kind === "box") return `box, ${g.half_extents.map((h) => metres(2 * h)).join(" \u00d7 ")}`;
-    if (g.kind === "plane") return `plane, normal (${g.normal.map((v) => number(v, 2)).join(", ")})`;
+    if (g.kind === "box")
+      return `box, ${g.half_extents.map((h) => metres(2 * h)).join(" \u00d7 ")}`;
+    if (g.kind === "plane")
+      return `plane, normal (${g.normal.map((v) => number(v, 2)).join(", ")})`;
     return g.kind;
   }
 
@@ -31,7 +34,9 @@
       counts.set(text, (counts.get(text) || 0) + 1);
     }
     if (!counts.size) return ["none"];
-    const lines = [...counts].map(([text, count]) => count > 1 ? `${count} \u00d7 ${text}` : text);
+    const lines = [...counts].map(([text, count]) =>
+      count > 1 ? `${count} \u00d7 ${text}` : text,
+    );
     return lines.length > 4 ? [...lines.slice(0, 4), `and ${lines.length - 4} kinds more`] : lines;
   }
 
@@ -49,7 +54,8 @@
       this.body = body;
       this.element.hidden = body < 0;
       if (body < 0) return;
-      const { header } = this.recording, { names, kinds, mass } = header.bodies;
+      const { header } = this.recording,
+        { names, kinds, mass } = header.bodies;
       this.name.textContent = names[body];
       this.facts.replaceChildren();
       this.rows = {};
@@ -74,10 +80,16 @@
     // `motion`: position (world, metres), velocity and spin of the body at this frame.
     update(motion, contacts, frame) {
       if (this.body < 0) return;
-      const body = this.body, set = (key, text) => { if (this.rows[key]) this.rows[key].textContent = text; };
+      const body = this.body,
+        set = (key, text) => {
+          if (this.rows[key]) this.rows[key].textContent = text;
+        };
       this.swatch.style.background = this.colour_of(body);
       set("position", triple(...motion.position) + " m");
-      set("speed", `${number(Math.hypot(...motion.velocity), 3)} m/s  (${motion.velocity.map((v) => number(v, 2)).join(", ")})`);
+      set(
+        "speed",
+        `${number(Math.hypot(...motion.velocity), 3)} m/s  (${motion.velocity.map((v) => number(v, 2)).join(", ")})`,
+      );
       set("spin", `${number(Math.hypot(...motion.spin), 2)} rad/s`);
       this.list_contacts(contacts, frame);
     }
@@ -94,22 +106,32 @@
         others.set(other, entry);
       }
       const steps = this.recording.steps;
-      const when = contacts && contacts.frame !== frame ? ` at step ${steps[contacts.frame]}` : " now";
-      this.contacts_title.textContent = others.size ? `Touches ${others.size}${when}` : `Touches nothing${when}`;
+      const when =
+        contacts && contacts.frame !== frame ? ` at step ${steps[contacts.frame]}` : " now";
+      this.contacts_title.textContent = others.size
+        ? `Touches ${others.size}${when}`
+        : `Touches nothing${when}`;
       const sorted = [...others].sort((a, b) => b[1].impulse - a[1].impulse);
-      this.contacts.replaceChildren(...sorted.slice(0, 8).map(([other, entry]) => {
-        const row = make("button", undefined, "contact");
-        row.type = "button";
-        row.append(make("span", this.recording.header.bodies.names[other], "contact-name"),
-          make("span", `${entry.points} pt`), make("span", cairn.format_si(entry.impulse, "N s")),
-          make("span", cairn.format_si(entry.separation, "m")));
-        row.title = "Points, impulse over the last step, least separation. Click to go to this body.";
-        row.addEventListener("click", () => this.select(other));
-        return row;
-      }));
-      if (sorted.length > 8) this.contacts.append(make("div", `and ${sorted.length - 8} more`, "more"));
+      this.contacts.replaceChildren(
+        ...sorted.slice(0, 8).map(([other, entry]) => {
+          const row = make("button", undefined, "contact");
+          row.type = "button";
+          row.append(
+            make("span", this.recording.header.bodies.names[other], "contact-name"),
+            make("span", `${entry.points} pt`),
+            make("span", cairn.format_si(entry.impulse, "N s")),
+            make("span", cairn.format_si(entry.separation, "m")),
+          );
+          row.title =
+            "Points, impulse over the last step, least separation. Click to go to this body.";
+          row.addEventListener("click", () => this.select(other));
+          return row;
+        }),
+      );
+      if (sorted.length > 8)
+        this.contacts.append(make("div", `and ${sorted.length - 8} more`, "more"));
     }
   }
 
   cairn.Panel = Panel;
-})(globalThis.cairn = globalThis.cairn || {});
+})((globalThis.cairn = globalThis.cairn || {}));

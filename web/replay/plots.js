@@ -1,8 +1,17 @@
-// The two plots under the timeline: energies, and the deepest penetration. They share the timeline's
-// horizontal axis, so that one cursor runs through all three, and are drawn to fit on every resize.
+// The two plots under the timeline: energies, and the deepest penetration. They share the
+// timeline's horizontal axis, so that one cursor runs through all three, and are drawn to fit on
+// every resize.
 "use strict";
 (function (cairn) {
-  const PREFIX = [[1e9, "G"], [1e6, "M"], [1e3, "k"], [1, ""], [1e-3, "m"], [1e-6, "\u00b5"], [1e-9, "n"]];
+  const PREFIX = [
+    [1e9, "G"],
+    [1e6, "M"],
+    [1e3, "k"],
+    [1, ""],
+    [1e-3, "m"],
+    [1e-6, "\u00b5"],
+    [1e-9, "n"],
+  ];
 
   // Three digits and a prefix: 1.23 kJ.
   cairn.format_si = function (value, unit) {
@@ -28,7 +37,8 @@
       this.labels = document.createElement("div");
       this.labels.className = "plot-labels";
       this.values = series.map(({ name, colour }) => {
-        const row = document.createElement("span"), value = document.createElement("b");
+        const row = document.createElement("span"),
+          value = document.createElement("b");
         row.style.setProperty("--series", `var(${colour})`);
         row.append(document.createTextNode(name), value);
         this.labels.append(row);
@@ -42,27 +52,38 @@
     }
 
     find_range() {
-      let low = this.from_zero ? 0 : Infinity, high = -Infinity;
+      let low = this.from_zero ? 0 : Infinity,
+        high = -Infinity;
       for (const { values } of this.series) {
-        for (const v of values) if (Number.isFinite(v)) { low = Math.min(low, v); high = Math.max(high, v); }
+        for (const v of values)
+          if (Number.isFinite(v)) {
+            low = Math.min(low, v);
+            high = Math.max(high, v);
+          }
       }
-      if (!(high > low)) { low = Math.min(low, 0); high = low + (Math.abs(low) || 1); }
+      if (!(high > low)) {
+        low = Math.min(low, 0);
+        high = low + (Math.abs(low) || 1);
+      }
       const margin = 0.08 * (high - low);
       this.low = this.from_zero ? 0 : low - margin;
       this.high = high + margin;
     }
 
     draw() {
-      const { canvas, recording } = this, ratio = Math.min(globalThis.devicePixelRatio || 1, 2);
-      const width = canvas.clientWidth, height = canvas.clientHeight;
+      const { canvas, recording } = this,
+        ratio = Math.min(globalThis.devicePixelRatio || 1, 2);
+      const width = canvas.clientWidth,
+        height = canvas.clientHeight;
       if (!width || !height) return;
       canvas.width = Math.round(width * ratio);
       canvas.height = Math.round(height * ratio);
-      const pen = canvas.getContext("2d"), style = getComputedStyle(this.element);
+      const pen = canvas.getContext("2d"),
+        style = getComputedStyle(this.element);
       pen.scale(ratio, ratio);
       const last = recording.times[recording.frame_count - 1] || 1;
-      const x_of = (i) => recording.times[i] / last * width;
-      const y_of = (v) => height - 1 - (v - this.low) / (this.high - this.low) * (height - 2);
+      const x_of = (i) => (recording.times[i] / last) * width;
+      const y_of = (v) => height - 1 - ((v - this.low) / (this.high - this.low)) * (height - 2);
       pen.strokeStyle = style.getPropertyValue("--hair");
       pen.lineWidth = 1;
       const zero = Math.round(y_of(Math.max(this.low, Math.min(0, this.high)))) - 0.5;
@@ -93,7 +114,9 @@
         values.forEach((v, i) => pen.lineTo(x_of(i), y_of(v)));
         return;
       }
-      let column = 0, low = Infinity, high = -Infinity;
+      let column = 0,
+        low = Infinity,
+        high = -Infinity;
       for (let i = 0; i < values.length; ++i) {
         low = Math.min(low, values[i]);
         high = Math.max(high, values[i]);
@@ -113,20 +136,32 @@
     }
   }
 
-  // Potential energy has no zero of its own: it is counted from its lowest value, or the kinetic energy
-  // of a tall building would be a flat line.
+  // Potential energy has no zero of its own: it is counted from its lowest value, or the kinetic
+  // energy of a tall building would be a flat line.
   cairn.make_plots = (elements, recording) => [
     new Plot(elements.energy, recording, {
-      title: "Energy", unit: "J", from_zero: false, series: [
-        { name: "total", values: from_lowest(recording.total, recording.potential), colour: "--total" },
-        { name: "potential", values: from_lowest(recording.potential, recording.potential), colour: "--potential" },
+      title: "Energy",
+      unit: "J",
+      from_zero: false,
+      series: [
+        {
+          name: "total",
+          values: from_lowest(recording.total, recording.potential),
+          colour: "--total",
+        },
+        {
+          name: "potential",
+          values: from_lowest(recording.potential, recording.potential),
+          colour: "--potential",
+        },
         { name: "kinetic", values: recording.kinetic, colour: "--kinetic" },
       ],
     }),
     new Plot(elements.penetration, recording, {
-      title: "Penetration", unit: "m", from_zero: true, series: [
-        { name: "deepest", values: recording.penetration, colour: "--depth", fill: true },
-      ],
+      title: "Penetration",
+      unit: "m",
+      from_zero: true,
+      series: [{ name: "deepest", values: recording.penetration, colour: "--depth", fill: true }],
     }),
   ];
-})(globalThis.cairn = globalThis.cairn || {});
+})((globalThis.cairn = globalThis.cairn || {}));

@@ -1,10 +1,11 @@
-// What three.js r111 lacks for this page: shadows that soften with distance, box edges, turning marks on
-// balls, an endless ground with a fine grid, and lines and arrows of a given width in pixels.
+// What three.js r111 lacks for this page: shadows that soften with distance, box edges, turning
+// marks on balls, an endless ground with a fine grid, and lines and arrows of a given width in
+// pixels.
 //
-// Shadows: percentage closer soft shadows (Fernando 2005). Blockers are searched over a Vogel disc, the
-// filter's width follows from their distance; `shadowRadius` carries the light's apparent size, in
-// shadow-map widths per unit of depth. Discs are turned per pixel (interleaved gradient noise, Jimenez
-// 2014), which trades bands for a fine grain.
+// Shadows: percentage closer soft shadows (Fernando 2005). Blockers are searched over a Vogel disc,
+// the filter's width follows from their distance; `shadowRadius` carries the light's apparent size,
+// in shadow-map widths per unit of depth. Discs are turned per pixel (interleaved gradient noise,
+// Jimenez 2014), which trades bands for a fine grain.
 "use strict";
 (function (cairn) {
   const SOFT_SHADOW = `
@@ -43,7 +44,9 @@ float getShadow(sampler2D map, vec2 size, float bias, float light_size, vec4 coo
 }
 #endif`;
 
-  cairn.install_soft_shadows = () => { THREE.ShaderChunk.shadowmap_pars_fragment = SOFT_SHADOW; };
+  cairn.install_soft_shadows = () => {
+    THREE.ShaderChunk.shadowmap_pars_fragment = SOFT_SHADOW;
+  };
 
   function patch(shader, where, replacements) {
     for (const [anchor, code] of replacements) {
@@ -83,7 +86,8 @@ vec3 stone_normal;
 float edge_light;
 void main() {`;
 
-  // A box: the normal leans outward near the edges, as if they were rounded, and a hairline follows them.
+  // A box: the normal leans outward near the edges, as if they were rounded, and a hairline follows
+  // them.
   const BOX_SURFACE = `
   vec3 flat_axes = 1.0 - step(0.5, abs(v_face));
   vec3 to_edge = (v_half - abs(v_local)) * flat_axes + 1e9 * (1.0 - flat_axes);
@@ -111,7 +115,8 @@ void main() {`;
   diffuseColor.rgb *= 1.0 - 0.16 * max(circle.x, max(circle.y, circle.z));
   edge_light = 0.0;`;
 
-  // tint.w: 0 a dynamic body, 1 static, 2 kinematic (hatched); plus 4 where the pointer rests on it.
+  // tint.w: 0 a dynamic body, 1 static, 2 kinematic (hatched); plus 4 where the pointer rests on
+  // it.
   const MARKS = `
   float hovered = step(3.5, v_tint.w);
   float kind = v_tint.w - 4.0 * hovered;
@@ -130,29 +135,53 @@ void main() {`;
       patch(shader, "fragmentShader", [
         ["void main() {", STONE_FRAGMENT_HEAD],
         ["#include <color_fragment>", "diffuseColor.rgb = v_tint.rgb;" + MARKS + surface],
-        ["#include <normal_fragment_begin>", "vec3 normal = stone_normal; vec3 geometryNormal = normal;"],
-        ["#include <emissivemap_fragment>", "totalEmissiveRadiance += edge_light * diffuseColor.rgb;"],
+        [
+          "#include <normal_fragment_begin>",
+          "vec3 normal = stone_normal; vec3 geometryNormal = normal;",
+        ],
+        [
+          "#include <emissivemap_fragment>",
+          "totalEmissiveRadiance += edge_light * diffuseColor.rgb;",
+        ],
       ]);
     };
     // r111 tells programs apart by the text of this function: both kinds need their own.
-    material.onBeforeCompile = kind === "sphere" ? (shader) => { compile(shader, "sphere"); }
-      : (shader) => { compile(shader, "box"); };
+    material.onBeforeCompile =
+      kind === "sphere"
+        ? (shader) => {
+            compile(shader, "sphere");
+          }
+        : (shader) => {
+            compile(shader, "box");
+          };
     material.extensions = { derivatives: true };
     return material;
   };
 
-  // A plane's surface: a grid of 1 and 10 spacings that fades out, like the ground itself, far away.
+  // A plane's surface: a grid of 1 and 10 spacings that fades out, like the ground itself, far
+  // away.
   cairn.ground_material = function () {
     const uniforms = {
-      line: { value: new THREE.Color() }, spacing: { value: 1 }, offset: { value: new THREE.Vector2() },
-      fade: { value: new THREE.Vector2(1, 2) }, grid_strength: { value: 1 },
+      line: { value: new THREE.Color() },
+      spacing: { value: 1 },
+      offset: { value: new THREE.Vector2() },
+      fade: { value: new THREE.Vector2(1, 2) },
+      grid_strength: { value: 1 },
     };
-    const material = new THREE.MeshStandardMaterial({ roughness: 0.95, metalness: 0, transparent: true });
+    const material = new THREE.MeshStandardMaterial({
+      roughness: 0.95,
+      metalness: 0,
+      transparent: true,
+    });
     material.onBeforeCompile = (shader) => {
       Object.assign(shader.uniforms, uniforms);
-      patch(shader, "vertexShader", [["void main() {", "varying vec2 v_ground;\nvoid main() {\n v_ground = position.xy;"]]);
+      patch(shader, "vertexShader", [
+        ["void main() {", "varying vec2 v_ground;\nvoid main() {\n v_ground = position.xy;"],
+      ]);
       patch(shader, "fragmentShader", [
-        ["void main() {", `
+        [
+          "void main() {",
+          `
 varying vec2 v_ground;
 uniform vec3 line;
 uniform float spacing;
@@ -165,12 +194,16 @@ float grid(vec2 at, float width) {
   vec2 drawn = clamp(0.5 * width + 0.5 - to_line, 0.0, 1.0) * clamp(1.6 - 4.0 * pixel, 0.0, 1.0);
   return max(drawn.x, drawn.y);
 }
-void main() {`],
-        ["#include <color_fragment>", `
+void main() {`,
+        ],
+        [
+          "#include <color_fragment>",
+          `
   vec2 at = (v_ground + offset) / spacing;
   float drawn = max(0.32 * grid(at, 1.0), 0.62 * grid(at / 10.0, 1.4));
   diffuseColor.rgb = mix(diffuseColor.rgb, line, drawn * grid_strength);
-  diffuseColor.a *= 1.0 - smoothstep(fade.x, fade.y, length(v_ground));`],
+  diffuseColor.a *= 1.0 - smoothstep(fade.x, fade.y, length(v_ground));`,
+        ],
       ]);
     };
     material.extensions = { derivatives: true };
@@ -221,22 +254,36 @@ void main() {
   gl_FragColor = vec4(colour, opacity * cover);
 }`;
 
-  cairn.segment_material = ({ width, head, opacity, depth }) => new THREE.ShaderMaterial({
-    vertexShader: SEGMENT_VERTEX, fragmentShader: SEGMENT_FRAGMENT, transparent: true, depthTest: !!depth,
-    depthWrite: false, side: THREE.DoubleSide,
-    uniforms: {
-      colour: { value: new THREE.Color() }, width: { value: width }, head: { value: head },
-      opacity: { value: opacity }, viewport: { value: new THREE.Vector2(1, 1) },
-    },
-  });
+  cairn.segment_material = ({ width, head, opacity, depth }) =>
+    new THREE.ShaderMaterial({
+      vertexShader: SEGMENT_VERTEX,
+      fragmentShader: SEGMENT_FRAGMENT,
+      transparent: true,
+      depthTest: !!depth,
+      depthWrite: false,
+      side: THREE.DoubleSide,
+      uniforms: {
+        colour: { value: new THREE.Color() },
+        width: { value: width },
+        head: { value: head },
+        opacity: { value: opacity },
+        viewport: { value: new THREE.Vector2(1, 1) },
+      },
+    });
 
-  cairn.dot_material = ({ body_size }) => new THREE.ShaderMaterial({
-    transparent: true, depthTest: false, depthWrite: false,
-    uniforms: {
-      colour: { value: new THREE.Color() }, rim: { value: new THREE.Color() }, body_size: { value: body_size },
-      ratio: { value: 1 }, viewport_height: { value: 1 },
-    },
-    vertexShader: `
+  cairn.dot_material = ({ body_size }) =>
+    new THREE.ShaderMaterial({
+      transparent: true,
+      depthTest: false,
+      depthWrite: false,
+      uniforms: {
+        colour: { value: new THREE.Color() },
+        rim: { value: new THREE.Color() },
+        body_size: { value: body_size },
+        ratio: { value: 1 },
+        viewport_height: { value: 1 },
+      },
+      vertexShader: `
 attribute float weight;
 uniform float body_size;
 uniform float ratio;
@@ -249,7 +296,7 @@ void main() {
   v_size = clamp(seen / 6.0, 2.5 * ratio, 8.0 * ratio) * (0.6 + 0.7 * weight);
   gl_PointSize = v_size + 2.0;
 }`,
-    fragmentShader: `
+      fragmentShader: `
 uniform vec3 colour;
 uniform vec3 rim;
 varying float v_size;
@@ -260,15 +307,20 @@ void main() {
   float rimmed = clamp(away - 0.5 * v_size + 1.6, 0.0, 1.0) * smoothstep(4.0, 7.0, v_size);
   gl_FragColor = vec4(mix(colour, rim, rimmed), cover);
 }`,
-  });
+    });
 
-  // A rim of `width` pixels about a body: its back faces, pushed out from the middle in the picture.
-  cairn.outline_material = () => new THREE.ShaderMaterial({
-    side: THREE.BackSide, transparent: true,
-    uniforms: {
-      colour: { value: new THREE.Color() }, viewport: { value: new THREE.Vector2(1, 1) }, width: { value: 2.5 },
-    },
-    vertexShader: `
+  // A rim of `width` pixels about a body: its back faces, pushed out from the middle in the
+  // picture.
+  cairn.outline_material = () =>
+    new THREE.ShaderMaterial({
+      side: THREE.BackSide,
+      transparent: true,
+      uniforms: {
+        colour: { value: new THREE.Color() },
+        viewport: { value: new THREE.Vector2(1, 1) },
+        width: { value: 2.5 },
+      },
+      vertexShader: `
 uniform vec2 viewport;
 uniform float width;
 void main() {
@@ -278,6 +330,6 @@ void main() {
   at.xy += push * width * 2.0 / viewport * at.w;
   gl_Position = at;
 }`,
-    fragmentShader: "uniform vec3 colour; void main() { gl_FragColor = vec4(colour, 0.95); }",
-  });
-})(globalThis.cairn = globalThis.cairn || {});
+      fragmentShader: "uniform vec3 colour; void main() { gl_FragColor = vec4(colour, 0.95); }",
+    });
+})((globalThis.cairn = globalThis.cairn || {}));

@@ -1,29 +1,44 @@
-// The 3D scene: instanced stones, grounds, light and shadow. Everything is placed about the recording's
-// origin. One instanced mesh a shape kind: five thousand bodies are two draw calls.
+// The 3D scene: instanced stones, grounds, light and shadow. Everything is placed about the
+// recording's origin. One instanced mesh a shape kind: five thousand bodies are two draw calls.
 //
-// cairn.Stage: show(position, rotation) places the bodies, render() draws. The options are the page's
-// (main.js reads them from the address).
+// cairn.Stage: show(position, rotation) places the bodies, render() draws. The options are the
+// page's (main.js reads them from the address).
 "use strict";
 (function (cairn) {
   const GEOMETRY = {
     box: () => new THREE.BoxBufferGeometry(2, 2, 2),
-    sphere: (count) => count > 1500 ? new THREE.SphereBufferGeometry(1, 18, 12)
-      : count > 200 ? new THREE.SphereBufferGeometry(1, 32, 20) : new THREE.SphereBufferGeometry(1, 56, 36),
+    sphere: (count) =>
+      count > 1500
+        ? new THREE.SphereBufferGeometry(1, 18, 12)
+        : count > 200
+          ? new THREE.SphereBufferGeometry(1, 32, 20)
+          : new THREE.SphereBufferGeometry(1, 56, 36),
   };
   const vector = (list) => new THREE.Vector3(list[0], list[1], list[2]);
 
-  // Every shape of every body: kind, size (half extents or radius, thrice), body, place in the body.
+  // Every shape of every body: kind, size (half extents or radius, thrice), body, place in the
+  // body.
   function list_shapes(header) {
     const shapes = [];
     header.bodies.shapes.forEach((list, body) => {
       for (const [index, ...pose] of list) {
         const geometry = header.geometries[index];
-        const size = geometry.kind === "box" ? geometry.half_extents
-          : geometry.kind === "sphere" ? [geometry.radius, geometry.radius, geometry.radius] : null;
+        const size =
+          geometry.kind === "box"
+            ? geometry.half_extents
+            : geometry.kind === "sphere"
+              ? [geometry.radius, geometry.radius, geometry.radius]
+              : null;
         shapes.push({
-          body, geometry, kind: geometry.kind, size, placed: pose.length > 0,
+          body,
+          geometry,
+          kind: geometry.kind,
+          size,
+          placed: pose.length > 0,
           position: pose.length ? vector(pose) : new THREE.Vector3(),
-          rotation: pose.length ? new THREE.Quaternion(pose[3], pose[4], pose[5], pose[6]) : new THREE.Quaternion(),
+          rotation: pose.length
+            ? new THREE.Quaternion(pose[3], pose[4], pose[5], pose[6])
+            : new THREE.Quaternion(),
           reach: size ? Math.hypot(...(geometry.kind === "box" ? size : [size[0]])) : 0,
         });
       }
@@ -32,7 +47,9 @@
   }
 
   function percentile(sorted, share) {
-    return sorted[Math.min(sorted.length - 1, Math.max(0, Math.round(share * (sorted.length - 1))))];
+    return sorted[
+      Math.min(sorted.length - 1, Math.max(0, Math.round(share * (sorted.length - 1))))
+    ];
   }
 
   class Stage {
@@ -46,7 +63,8 @@
         this.reach[s.body] = Math.max(this.reach[s.body], s.reach + s.position.length());
       }
       const gravity = vector(this.header.gravity);
-      this.up = gravity.lengthSq() > 0 ? gravity.clone().normalize().negate() : new THREE.Vector3(0, 1, 0);
+      this.up =
+        gravity.lengthSq() > 0 ? gravity.clone().normalize().negate() : new THREE.Vector3(0, 1, 0);
       this.measure();
       this.make_renderer(canvas);
       this.make_lights();
@@ -55,23 +73,31 @@
       this.set_theme(options.theme);
     }
 
-    // Where things happen, and how large they are: `bounds` about nearly all of the motion (a ball that
-    // flies off must not shrink the rest), `typical` the middle size of a moving body.
+    // Where things happen, and how large they are: `bounds` about nearly all of the motion (a ball
+    // that flies off must not shrink the rest), `typical` the middle size of a moving body.
     measure() {
       const { recording, header } = this;
-      const moving = [...header.bodies.kinds].flatMap((k, i) => k !== "s" && this.reach[i] > 0 ? [i] : []);
-      const still = [...header.bodies.kinds].flatMap((k, i) => k === "s" && this.reach[i] > 0 ? [i] : []);
+      const moving = [...header.bodies.kinds].flatMap((k, i) =>
+        k !== "s" && this.reach[i] > 0 ? [i] : [],
+      );
+      const still = [...header.bodies.kinds].flatMap((k, i) =>
+        k === "s" && this.reach[i] > 0 ? [i] : [],
+      );
       const watched = moving.length ? moving : still;
       const frames = [];
       const every = Math.max(1, Math.ceil(recording.frame_count / 24));
       for (let f = 0; f < recording.frame_count; f += every) frames.push(f);
-      const thin = Math.max(1, Math.ceil(watched.length * frames.length / 200000));
-      const axes = [[], [], []], seen = [];
+      const thin = Math.max(1, Math.ceil((watched.length * frames.length) / 200000));
+      const axes = [[], [], []],
+        seen = [];
       for (const f of frames) {
         const { position } = recording.pose(f);
         for (let k = 0; k < watched.length; k += thin) {
           for (let i = 0; i < 3; ++i) axes[i].push(position[3 * watched[k] + i]);
-          seen.push([position.subarray(3 * watched[k], 3 * watched[k] + 3), this.reach[watched[k]]]);
+          seen.push([
+            position.subarray(3 * watched[k], 3 * watched[k] + 3),
+            this.reach[watched[k]],
+          ]);
         }
       }
       const sizes = watched.map((i) => this.reach[i]).sort((a, b) => a - b);
@@ -86,10 +112,14 @@
       });
       // What the camera should have in view: of each of these points a ball.
       const every_seen = Math.ceil(seen.length / 4000);
-      this.seen = seen.filter((_, i) => i % every_seen === 0)
-        .map(([at, reach]) => ({ at: vector(at), reach })).filter(({ at }) => this.bounds.containsPoint(at));
-      // Still bodies near the motion belong to the picture; a huge floor slab does not set its size.
-      const first = recording.pose(0).position, span = this.bounds.getSize(new THREE.Vector3()).length();
+      this.seen = seen
+        .filter((_, i) => i % every_seen === 0)
+        .map(([at, reach]) => ({ at: vector(at), reach }))
+        .filter(({ at }) => this.bounds.containsPoint(at));
+      // Still bodies near the motion belong to the picture; a huge floor slab does not set its
+      // size.
+      const first = recording.pose(0).position,
+        span = this.bounds.getSize(new THREE.Vector3()).length();
       for (const i of still) {
         const at = vector(first.subarray(3 * i, 3 * i + 3));
         if (this.reach[i] < span && this.bounds.distanceToPoint(at) < 0.5 * span) {
@@ -102,15 +132,26 @@
     }
 
     make_renderer(canvas) {
-      const attributes = { alpha: true, antialias: this.options.antialias, preserveDrawingBuffer: true };
-      const context = canvas.getContext("webgl2", attributes) || canvas.getContext("webgl", attributes);
+      const attributes = {
+        alpha: true,
+        antialias: this.options.antialias,
+        preserveDrawingBuffer: true,
+      };
+      const context =
+        canvas.getContext("webgl2", attributes) || canvas.getContext("webgl", attributes);
       if (!context) throw new Error("this browser gives the page no WebGL, which it needs to draw");
       const names = context.getExtension("WEBGL_debug_renderer_info");
       const drawn_by = names ? String(context.getParameter(names.UNMASKED_RENDERER_WEBGL)) : "";
       // Without a graphics processor soft shadows take seconds a frame.
-      if (this.options.shadows === null) this.options.shadows = !/swiftshader|llvmpipe|software/i.test(drawn_by);
+      if (this.options.shadows === null)
+        this.options.shadows = !/swiftshader|llvmpipe|software/i.test(drawn_by);
       cairn.install_soft_shadows();
-      this.renderer = new THREE.WebGLRenderer({ canvas, context, alpha: true, antialias: this.options.antialias });
+      this.renderer = new THREE.WebGLRenderer({
+        canvas,
+        context,
+        alpha: true,
+        antialias: this.options.antialias,
+      });
       this.renderer.gammaOutput = true;
       this.renderer.gammaFactor = 2.2;
       this.renderer.setClearColor(0, 0);
@@ -126,9 +167,14 @@
       this.sky.position.copy(this.up);
       const { side, ahead } = this.horizon();
       // The sun stands over the viewer's left shoulder, as painters like it.
-      const towards_sun = this.up.clone().multiplyScalar(1.15).addScaledVector(side, -0.8).addScaledVector(ahead, -0.6);
+      const towards_sun = this.up
+        .clone()
+        .multiplyScalar(1.15)
+        .addScaledVector(side, -0.8)
+        .addScaledVector(ahead, -0.6);
       this.sun = this.make_light(towards_sun.normalize(), 0.09, 4096);
-      // A second, broad light from straight above: its wide shadow darkens the places under and between.
+      // A second, broad light from straight above: its wide shadow darkens the places under and
+      // between.
       const towards_top = this.up.clone().addScaledVector(side, 0.12).normalize();
       this.top = this.make_light(towards_top, 0.85, 1024);
       this.scene.add(this.sky, this.sun, this.sun.target, this.top, this.top.target);
@@ -136,15 +182,23 @@
 
     make_light(direction, apparent_size, pixels) {
       const light = new THREE.DirectionalLight(0xffffff, 1);
-      const radius = 1.06 * this.radius + this.typical, depth = 4 * radius;
+      const radius = 1.06 * this.radius + this.typical,
+        depth = 4 * radius;
       light.position.copy(this.centre).addScaledVector(direction, 0.5 * depth);
       light.target.position.copy(this.centre);
       light.castShadow = this.options.shadows;
-      Object.assign(light.shadow.camera, { left: -radius, right: radius, top: radius, bottom: -radius, near: 0.01 * depth, far: depth });
+      Object.assign(light.shadow.camera, {
+        left: -radius,
+        right: radius,
+        top: radius,
+        bottom: -radius,
+        near: 0.01 * depth,
+        far: depth,
+      });
       const most = this.renderer.capabilities.maxTextureSize;
       light.shadow.mapSize.set(Math.min(pixels, most), Math.min(pixels, most));
       // In the shadow map's own units: widths of the map per unit of its depth.
-      light.shadow.radius = Math.min(apparent_size * depth / (2 * radius), 0.4);
+      light.shadow.radius = Math.min((apparent_size * depth) / (2 * radius), 0.4);
       light.shadow.bias = -0.0006;
       return light;
     }
@@ -176,7 +230,11 @@
       }
       this.glass = [];
       this.panes = new THREE.Group();
-      this.pane_material = new THREE.MeshBasicMaterial({ transparent: true, opacity: 0.1, depthWrite: false });
+      this.pane_material = new THREE.MeshBasicMaterial({
+        transparent: true,
+        opacity: 0.1,
+        depthWrite: false,
+      });
       this.pane_edges = new THREE.EdgesGeometry(new THREE.BoxBufferGeometry(2, 2, 2));
       this.rim_material = new THREE.LineBasicMaterial({ transparent: true, opacity: 0.4 });
       this.scene.add(this.panes);
@@ -187,11 +245,14 @@
 
     make_grounds() {
       this.grounds = [];
-      const { position, rotation } = this.recording.pose(0), origin = vector(this.header.lattice.origin);
+      const { position, rotation } = this.recording.pose(0),
+        origin = vector(this.header.lattice.origin);
       for (const shape of this.shapes.filter((s) => s.kind === "plane")) {
         const i = shape.body;
         const turn = new THREE.Quaternion(...rotation.subarray(4 * i, 4 * i + 4));
-        const at = vector(position.subarray(3 * i, 3 * i + 3)).add(shape.position.clone().applyQuaternion(turn));
+        const at = vector(position.subarray(3 * i, 3 * i + 3)).add(
+          shape.position.clone().applyQuaternion(turn),
+        );
         turn.multiply(shape.rotation);
         const normal = vector(shape.geometry.normal).normalize().applyQuaternion(turn);
         const offset = shape.geometry.offset + normal.dot(at);
@@ -207,7 +268,8 @@
       const inner = is_floor ? 1.8 * this.radius + 2 * this.typical : 0.7 * this.radius;
       const outer = is_floor ? 7 * this.radius + 6 * this.typical : 1.5 * this.radius;
       const { side, ahead } = this.horizon();
-      const reference = Math.abs(normal.x) < 0.9 ? new THREE.Vector3(1, 0, 0) : new THREE.Vector3(0, 0, 1);
+      const reference =
+        Math.abs(normal.x) < 0.9 ? new THREE.Vector3(1, 0, 0) : new THREE.Vector3(0, 0, 1);
       const v = new THREE.Vector3().crossVectors(normal, reference).normalize();
       const u = new THREE.Vector3().crossVectors(v, normal);
       const { material, uniforms } = cairn.ground_material();
@@ -217,7 +279,8 @@
       mesh.receiveShadow = true;
       mesh.renderOrder = -1;
       const spacing = Math.pow(10, Math.round(Math.log10(2 * this.typical)));
-      const whole = 10 * spacing, world = middle.clone().add(origin);
+      const whole = 10 * spacing,
+        world = middle.clone().add(origin);
       uniforms.spacing.value = spacing;
       uniforms.offset.value.set(world.dot(u) % whole, world.dot(v) % whole);
       uniforms.fade.value.set(inner, outer);
@@ -226,7 +289,7 @@
     }
 
     set_theme(name) {
-      const theme = this.theme = cairn.THEMES[name];
+      const theme = (this.theme = cairn.THEMES[name]);
       this.sky.color = cairn.linear(theme.sky);
       this.sky.groundColor = cairn.linear(theme.earth);
       this.sky.intensity = theme.sky_strength;
@@ -240,7 +303,9 @@
       this.rim_material.color = cairn.linear(theme.kinematic);
       this.outline_material.uniforms.colour.value.set(theme.outline);
       const first = this.recording.pose(0).position;
-      const heights = Array.from(this.reach, (_, i) => vector(first.subarray(3 * i, 3 * i + 3)).dot(this.up));
+      const heights = Array.from(this.reach, (_, i) =>
+        vector(first.subarray(3 * i, 3 * i + 3)).dot(this.up),
+      );
       this.own_colours = cairn.colour_bodies(this.recording, heights, this.reach, theme);
       this.paint(null);
     }
@@ -257,8 +322,13 @@
       const kinds = this.header.bodies.kinds;
       for (const { shapes, tint } of this.groups) {
         shapes.forEach(({ body }, i) => {
-          const colour = speeds && kinds[body] !== "s" ? cairn.speed_colour(speeds[body]) : this.own_colours[body];
-          const mark = (kinds[body] === "s" ? 1 : kinds[body] === "k" ? 2 : 0) + (body === this.hovered ? 4 : 0);
+          const colour =
+            speeds && kinds[body] !== "s"
+              ? cairn.speed_colour(speeds[body])
+              : this.own_colours[body];
+          const mark =
+            (kinds[body] === "s" ? 1 : kinds[body] === "k" ? 2 : 0) +
+            (body === this.hovered ? 4 : 0);
           tint.array.set([colour.r, colour.g, colour.b, mark], 4 * i);
         });
         tint.needsUpdate = true;
@@ -267,7 +337,9 @@
 
     // Places every stone. Column-major: rotation times size, then position.
     show(position, rotation) {
-      const at = new THREE.Vector3(), turn = new THREE.Quaternion(), size = new THREE.Vector3();
+      const at = new THREE.Vector3(),
+        turn = new THREE.Quaternion(),
+        size = new THREE.Vector3();
       const matrix = new THREE.Matrix4();
       this.placed = { position, rotation };
       for (const { shapes, mesh } of this.groups) {
@@ -290,10 +362,12 @@
       this.renderer.shadowMap.needsUpdate = true;
     }
 
-    // Walls between the eye and what moves become glass, or a pit could not be seen into. `bodies`: which.
+    // Walls between the eye and what moves become glass, or a pit could not be seen into. `bodies`:
+    // which.
     // Their stones shrink to nothing, and see-through twins with drawn edges stand in their place.
     set_glass(bodies) {
-      if (bodies.length === this.glass.length && bodies.every((body, i) => body === this.glass[i])) return false;
+      if (bodies.length === this.glass.length && bodies.every((body, i) => body === this.glass[i]))
+        return false;
       this.glass = bodies;
       for (const old of [...this.panes.children]) this.panes.remove(old);
       const box = this.groups.find(({ kind }) => kind === "box");
@@ -310,15 +384,21 @@
 
     // A static box hides things if it stands before more than an eighth of some that move.
     find_walls(hits) {
-      const { position } = this.placed, kinds = this.header.bodies.kinds, eye = this.camera.position;
-      const walls = this.shapes.filter((s) => s.kind === "box" && kinds[s.body] === "s" && s.reach > 2 * this.typical);
-      const moving = [...kinds].flatMap((kind, i) => kind === "d" ? [i] : []);
+      const { position } = this.placed,
+        kinds = this.header.bodies.kinds,
+        eye = this.camera.position;
+      const walls = this.shapes.filter(
+        (s) => s.kind === "box" && kinds[s.body] === "s" && s.reach > 2 * this.typical,
+      );
+      const moving = [...kinds].flatMap((kind, i) => (kind === "d" ? [i] : []));
       if (!walls.length || walls.length > 60 || !moving.length) return [];
-      const every = Math.ceil(moving.length / 64), found = new Set();
+      const every = Math.ceil(moving.length / 64),
+        found = new Set();
       const watched = moving.filter((_, i) => i % every === 0);
       for (const wall of walls) {
         const hidden = watched.filter((body) => {
-          const way = vector(position.subarray(3 * body, 3 * body + 3)).sub(eye), far = way.length();
+          const way = vector(position.subarray(3 * body, 3 * body + 3)).sub(eye),
+            far = way.length();
           return hits(wall, eye, way.divideScalar(far), this.placed) < far - this.reach[body];
         });
         if (8 * hidden.length > watched.length) found.add(wall.body);
@@ -338,7 +418,10 @@
     place_shape(shape, { position, rotation }) {
       const b = shape.body;
       const turn = new THREE.Quaternion(...rotation.subarray(4 * b, 4 * b + 4));
-      const at = shape.position.clone().applyQuaternion(turn).add(vector(position.subarray(3 * b, 3 * b + 3)));
+      const at = shape.position
+        .clone()
+        .applyQuaternion(turn)
+        .add(vector(position.subarray(3 * b, 3 * b + 3)));
       return new THREE.Matrix4().compose(at, turn.multiply(shape.rotation), vector(shape.size));
     }
 
@@ -381,10 +464,13 @@
       const covered = Math.min(clear.bottom + clear.top, 0.75 * height);
       const aspect = width / (height - covered);
       // At 16:10 a lens of 36 degrees; in an upright window wider, so that as much fits across.
-      const across = Math.tan(18 * Math.PI / 180) * 1.6;
-      const free = aspect > 1.25 ? Math.tan(18 * Math.PI / 180) : Math.min(across / aspect * 0.86, Math.tan(38 * Math.PI / 180));
+      const across = Math.tan((18 * Math.PI) / 180) * 1.6;
+      const free =
+        aspect > 1.25
+          ? Math.tan((18 * Math.PI) / 180)
+          : Math.min((across / aspect) * 0.86, Math.tan((38 * Math.PI) / 180));
       const share = height / (height - covered);
-      this.camera.fov = 2 * Math.atan(free * share) * 180 / Math.PI;
+      this.camera.fov = (2 * Math.atan(free * share) * 180) / Math.PI;
       this.camera.aspect = width / height;
       this.camera.setViewOffset(width, height, 0, (clear.bottom - clear.top) / 2, width, height);
       this.viewport = new THREE.Vector2(width, height);
@@ -402,4 +488,4 @@
   }
 
   cairn.Stage = Stage;
-})(globalThis.cairn = globalThis.cairn || {});
+})((globalThis.cairn = globalThis.cairn || {}));
