@@ -34,15 +34,10 @@ struct Corners {
 struct Side {
     float Corner::*coordinate;
     float Corner::*along;
-    BoxFeature face;
     int axis;
     std::int8_t sign;
     float bound;
 };
-
-bool is_on_edge(const BoxFeature& f) {
-    return (f.signs[0] != 0) + (f.signs[1] != 0) + (f.signs[2] != 0) > 1;
-}
 
 // Where the polygon's edge from `in` to `out` crosses the side.
 Corner cut_edge(const Corner& in, const Corner& out, const Side& side) {
@@ -51,11 +46,10 @@ Corner cut_edge(const Corner& in, const Corner& out, const Side& side) {
     Corner cut;
     cut.*side.coordinate = side.bound;
     cut.*side.along = in.*side.along + part * (out.*side.along - in.*side.along);
+    // What the ends share: an edge of the subject, or the side of the other that was cut before;
+    // with this side, a crossing of edges or a vertex of the other over the subject's face.
     cut.of_subject = common_feature(in.of_subject, out.of_subject);
     cut.of_other = common_feature(in.of_other, out.of_other);
-    // On an edge of the subject two edges cross; else this is a vertex of the other over the
-    // subject's face, where the side that the edge lies on meets this one.
-    if (is_on_edge(cut.of_subject)) cut.of_other = side.face;
     cut.of_other.signs[side.axis] = side.sign;
     return cut;
 }
@@ -147,10 +141,10 @@ ClipPolygon clip_faces(const PlacedBox& subject, const PlacedBox& other, Vec3 c,
     const float h1 = component(other.half_extents, o1), h2 = component(other.half_extents, o2);
     const float snap = relative_snap * min(min(h1, h2), smallest_half_width(subject, face_s));
     const BoxFeature face = feature_of(face_o);
-    const Side sides[4] = {{&Corner::p, &Corner::q, face, o1, 1, p + h1},
-                           {&Corner::p, &Corner::q, face, o1, -1, p - h1},
-                           {&Corner::q, &Corner::p, face, o2, 1, q + h2},
-                           {&Corner::q, &Corner::p, face, o2, -1, q - h2}};
+    const Side sides[4] = {{&Corner::p, &Corner::q, o1, 1, p + h1},
+                           {&Corner::p, &Corner::q, o1, -1, p - h1},
+                           {&Corner::q, &Corner::p, o2, 1, q + h2},
+                           {&Corner::q, &Corner::p, o2, -1, q - h2}};
     for (int i = 0; i < corners->count; ++i) corners->at[std::size_t(i)].of_other = face;
     for (const Side& side : sides) {
         if (clip(*corners, side, snap, *spare)) std::swap(corners, spare);

@@ -6,6 +6,7 @@
 
 #include "../narrow/judge.h"
 #include "contact/build_manifold.h"
+#include "narrow/box_pair.h"
 
 using namespace cairn;
 using namespace cairn::judge;
@@ -298,4 +299,20 @@ TEST_CASE("edges that lie along each other touch at both ends of what they share
         CHECK(names_of(m).size() == 2);
         CHECK(m.points[0].separation == Approx(std::sqrt(0.13)).epsilon(1e-5));
     }
+}
+
+TEST_CASE("crossed edges of faces that nearly face each other still give the whole polygon") {
+    Random random(54);
+    int crossed = 0;
+    for (int i = 0; i < 2000; ++i) {
+        const Quat q = turn(random.direction(), random.uniform(0, 0.02)) *
+                       turn({0, 1, 0}, random.uniform(0.2, 1.3));
+        const Pose pose = {{random.real(-0.6, 0.6), 0.995f, random.real(-0.6, 0.6)}, q};
+        AxisHint hint;
+        const Axis axis = find_axis(cube, cube, pose, NarrowPhase::Sat, hint);
+        if (hint.kind != std::uint8_t(BoxAxisKind::EdgePair) || axis.normal.y < 0.9995f) continue;
+        ++crossed;
+        CHECK(build_manifold(cube, cube, pose, axis, 0.1f).point_count >= 3);
+    }
+    CHECK(crossed > 30);
 }

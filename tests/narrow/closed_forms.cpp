@@ -80,6 +80,10 @@ TEST_CASE("C03: a ball whose centre is inside leaves by the face it is nearest t
                             {{std::nextafter(1.0f, 2.0f), 0.3f, 0.7f}, {}}, NarrowPhase::Sat);
     CHECK(on.normal == Vec3{1, 0, 0});
     CHECK(on.separation == Approx(-0.5));
+    const Axis on_edge = axis_of(
+        Box{{1, 2, 3}}, Sphere{0.5f},
+        {{std::nextafter(1.0f, 2.0f), std::nextafter(2.0f, 3.0f), 0.7f}, {}}, NarrowPhase::Sat);
+    CHECK((on_edge.normal == Vec3{1, 0, 0} || on_edge.normal == Vec3{0, 1, 0}));
 }
 
 TEST_CASE("a plane and a ball: height of the centre less the radius, either way round") {
