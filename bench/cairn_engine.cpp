@@ -49,9 +49,13 @@ private:
     std::vector<BodyId> bodies_;
 };
 
+std::string count(int n, const char* what) {
+    return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
+}
+
 std::string budget(Solver solver) {
-    return std::to_string(default_substeps(solver)) + " substeps, " +
-           std::to_string(default_iterations(solver)) + " iterations";
+    return count(default_substeps(solver), "substep") + " of " +
+           count(default_iterations(solver), "iteration");
 }
 
 }  // namespace

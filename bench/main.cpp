@@ -57,13 +57,14 @@ void print_table(const std::vector<EngineEntry>& engines,
             wall.push_back(run.wall_ms);
             cpu.push_back(run.cpu_ms);
         }
-        const Spread time = spread_of(wall);
+        const Spread time = spread_of(cpu);
         if (i == 0) reference = time.median;
         const Run& last = runs[i].back();
-        std::printf("| %s | %s | %.3f (%.3f to %.3f) | %.3f | %.2f | %.4f m | %.2f mm | %.3g J |\n",
-                    engines[i].name.c_str(), engines[i].setting.c_str(), time.median, time.least,
-                    time.most, spread_of(cpu).median, time.median / reference, last.top_drift,
-                    1000 * last.deepest_penetration, last.kinetic_energy);
+        std::printf(
+            "| %s | %s | %.2f (%.2f to %.2f) | %.2f | %.2f | %.1f mm | %.2f mm | %.3g J |\n",
+            engines[i].name.c_str(), engines[i].setting.c_str(), time.median, time.least, time.most,
+            time.median / reference, spread_of(wall).median, 1000 * last.top_drift,
+            1000 * last.deepest_penetration, last.kinetic_energy);
     }
 }
 
