@@ -15,18 +15,22 @@ constexpr float push_speed_share = 0.25f;
 constexpr float push_share_a_step = 0.004f;
 // Overlap that is left alone, as a share of the smaller shape: a few roundings of a separation,
 // which would otherwise be pushed out at rounding / h.
-constexpr float slop_share = 1e-6f;
+constexpr float slop_share = 2.5e-7f;
 
 float find_push_speed(const ContactRows& row, const StepProblem& problem) {
     const float by_gravity = push_speed_share * square_root(row.size * length(problem.gravity));
     return max(by_gravity, push_share_a_step * row.size / float(problem.dt));
 }
 
+// Sweeps of friction over the points of one manifold.
+constexpr int friction_sweeps = 2;
+
 }  // namespace
 
 void Xpbd::advance(const StepProblem& problem) {
     const auto h = float(problem.dt / problem.substeps);
     prepare_rows(problem, rows_);
+    recall(problem, h);
     for (int substep = 0; substep < problem.substeps; ++substep) {
         find_responses(problem, responses_);
         refresh_rows(problem, responses_, rows_);
@@ -44,6 +48,16 @@ void Xpbd::advance(const StepProblem& problem) {
     }
 }
 
+void Xpbd::recall(const StepProblem& problem, float h) {
+    held_.assign(rows_.size(), {});
+    for (std::size_t k = 0; k < rows_.size(); ++k) {
+        const Contact& contact = problem.contacts[rows_[k].contact];
+        for (std::size_t i = 0; i < std::size_t(rows_[k].point_count); ++i) {
+            held_[k][i] = (h * h) * contact.points[i].friction_force;
+        }
+    }
+}
+
 void Xpbd::predict(const StepProblem& problem, float h) {
     for (std::size_t k = 0; k < rows_.size(); ++k) {
         const ContactRows& row = rows_[k];
@@ -58,8 +72,25 @@ void Xpbd::predict(const StepProblem& problem, float h) {
         integrate_velocity(problem.motions[i], problem.inertias[i], problem.drives[i],
                            responses_[i], problem.gravity, h);
     }
+    warm_start(problem, h);
     for (const std::uint32_t i : problem.moving) {
         integrate_pose(problem.motions[i], problem.inertias[i], problem.drives[i], h);
+    }
+}
+
+void Xpbd::warm_start(const StepProblem& problem, float h) {
+    const float inverse_h = 1.0f / h;
+    for (std::size_t k = 0; k < rows_.size(); ++k) {
+        const ContactRows& row = rows_[k];
+        Multipliers& sum = multipliers_[k];
+        for (std::size_t i = 0; i < std::size_t(row.point_count); ++i) {
+            if (held_[k][i] == Vec3{}) continue;
+            const PointRow& p = row.points[i];
+            sum.friction[i] = without_normal(held_[k][i], row.normal);
+            apply_impulse(problem.motions[row.body_a], responses_[row.body_a], p.r_a,
+                          problem.motions[row.body_b], responses_[row.body_b], p.r_b,
+                          inverse_h * sum.friction[i]);
+        }
     }
 }
 
@@ -130,41 +161,60 @@ void Xpbd::derive_velocities(const StepProblem& problem, float h) {
 }
 
 void Xpbd::solve_velocities(const StepProblem& problem, float h) {
-    const float inverse_h = 1.0f / h;
     for (std::size_t k = 0; k < rows_.size(); ++k) {
         const ContactRows& row = rows_[k];
         Multipliers& sum = multipliers_[k];
-        BodyMotion& a = problem.motions[row.body_a];
-        BodyMotion& b = problem.motions[row.body_b];
-        const Response& response_a = responses_[row.body_a];
-        const Response& response_b = responses_[row.body_b];
-        const Vec3 n = row.normal;
-        float load = 0;
-        for (const float normal : sum.normal) load += normal;
-        if (!(load > 0)) continue;
+        quiet_normals(problem, k, h);
+        rub_points(problem, k, h);
+        if (row.rolling_friction > 0 || row.spinning_friction > 0) rub_turning(problem, k, h);
+        held_[k] = sum.friction;
+    }
+}
 
-        std::array<float, 4> excess = {};
-        std::array<float, 4> impulses = {};
-        const float linear = dot(n, b.linear_velocity - a.linear_velocity);
-        for (std::size_t i = 0; i < std::size_t(row.point_count); ++i) {
-            const PointRow& p = row.points[i];
-            const float u =
-                linear + dot(p.turn_b, b.angular_velocity) - dot(p.turn_a, a.angular_velocity);
-            // No faster apart than before: what is faster, the push has made.
-            excess[i] = u - clamp(u, 0, max(0, sum.approach[i]));
-            impulses[i] = inverse_h * sum.normal[i];
-        }
-        const std::array<float, 4> before = impulses;
-        solve_normals(row, 0, excess, impulses);
-        for (std::size_t i = 0; i < 4; ++i) impulses[i] -= before[i];
-        push_apart(row, impulses, a, b, response_a, response_b);
-        for (std::size_t i = 0; i < 4; ++i) impulses[i] += before[i];
-        share_evenly(row, impulses);
-        load = 0;
-        for (std::size_t i = 0; i < std::size_t(row.point_count); ++i) {
-            sum.normal[i] = h * impulses[i];
-            load += sum.normal[i];
-        }
+void Xpbd::quiet_normals(const StepProblem& problem, std::size_t k, float h) {
+    const ContactRows& row = rows_[k];
+    Multipliers& sum = multipliers_[k];
+    BodyMotion& a = problem.motions[row.body_a];
+    BodyMotion& b = problem.motions[row.body_b];
+    if (sum.normal == std::array<float, 4>{}) return;
+    std::array<float, 4> excess = {};
+    std::array<float, 4> impulses = {};
+    const float linear = dot(row.normal, b.linear_velocity - a.linear_velocity);
+    for (std::size_t i = 0; i < std::size_t(row.point_count); ++i) {
+        const PointRow& p = row.points[i];
+        const float u =
+            linear + dot(p.turn_b, b.angular_velocity) - dot(p.turn_a, a.angular_velocity);
+        // No faster apart than before: what is faster, the push has made.
+        excess[i] = u - clamp(u, 0, max(0, sum.approach[i]));
+        impulses[i] = sum.normal[i] / h;
+    }
+    std::array<float, 4> changes = impulses;
+    solve_normals(row, 0, excess, impulses);
+    for (std::size_t i = 0; i < 4; ++i) changes[i] = impulses[i] - changes[i];
+    push_apart(row, changes, a, b, responses_[row.body_a], responses_[row.body_b]);
+    share_evenly(row, impulses);
+    for (std::size_t i = 0; i < 4; ++i) sum.normal[i] = h * impulses[i];
+}
+
+void Xpbd::rub_points(const StepProblem& problem, std::size_t k, float h) {
+    const ContactRows& row = rows_[k];
+    Multipliers& sum = multipliers_[k];
+    BodyMotion& a = problem.motions[row.body_a];
+    BodyMotion& b = problem.motions[row.body_b];
+    const Response& response_a = responses_[row.body_a];
+    const Response& response_b = responses_[row.body_b];
+    const Vec3 n = row.normal;
+    const float inverse_h = 1.0f / h;
+    for (std::size_t i = 0; i < std::size_t(row.point_count); ++i) {
+        // The bound may have come down since.
+        const PointRow& p = row.points[i];
+        const Vec3 allowed = clamp_length(sum.friction[i], row.friction * sum.normal[i]);
+        if (allowed == sum.friction[i]) continue;
+        apply_impulse(a, response_a, p.r_a, b, response_b, p.r_b,
+                      inverse_h * (allowed - sum.friction[i]));
+        sum.friction[i] = allowed;
+    }
+    for (int sweep = 0; sweep < friction_sweeps; ++sweep) {
         for (std::size_t i = 0; i < std::size_t(row.point_count); ++i) {
             const PointRow& p = row.points[i];
             const Vec3 v =
@@ -175,17 +225,25 @@ void Xpbd::solve_velocities(const StepProblem& problem, float h) {
                           inverse_h * (total - sum.friction[i]));
             sum.friction[i] = total;
         }
-        if (load > 0 && (row.rolling_friction > 0 || row.spinning_friction > 0)) {
-            const Vec3 w = b.angular_velocity - a.angular_velocity;
-            sum.rolling = clamp_length((-h * row.rolling_mass) * without_normal(w, n),
-                                       row.rolling_friction * load);
-            const float most = row.spinning_friction * load;
-            sum.spinning = clamp(-h * row.spinning_mass * dot(n, w), -most, most);
-            const Vec3 twist = inverse_h * (sum.rolling + sum.spinning * n);
-            a.angular_velocity -= response_a.inverse_inertia * twist;
-            b.angular_velocity += response_b.inverse_inertia * twist;
-        }
     }
+}
+
+void Xpbd::rub_turning(const StepProblem& problem, std::size_t k, float h) {
+    const ContactRows& row = rows_[k];
+    Multipliers& sum = multipliers_[k];
+    BodyMotion& a = problem.motions[row.body_a];
+    BodyMotion& b = problem.motions[row.body_b];
+    float load = 0;
+    for (const float normal : sum.normal) load += normal;
+    const Vec3 n = row.normal;
+    const Vec3 w = b.angular_velocity - a.angular_velocity;
+    sum.rolling =
+        clamp_length((-h * row.rolling_mass) * without_normal(w, n), row.rolling_friction * load);
+    const float most = row.spinning_friction * load;
+    sum.spinning = clamp(-h * row.spinning_mass * dot(n, w), -most, most);
+    const Vec3 twist = (1.0f / h) * (sum.rolling + sum.spinning * n);
+    a.angular_velocity -= responses_[row.body_a].inverse_inertia * twist;
+    b.angular_velocity += responses_[row.body_b].inverse_inertia * twist;
 }
 
 void Xpbd::store_impulses(const StepProblem& problem, float h, bool first) {

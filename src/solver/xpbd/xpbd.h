@@ -53,15 +53,22 @@ private:
         std::array<float, 4> approach = {};    // n.v_rel before the substep's forces
     };
 
+    void recall(const StepProblem& problem, float h);
+    void warm_start(const StepProblem& problem, float h);
     void predict(const StepProblem& problem, float h);
     void measure(const StepProblem& problem, float h);
     void correct_positions(const StepProblem& problem, float h);
     void derive_velocities(const StepProblem& problem, float h);
     void solve_velocities(const StepProblem& problem, float h);
+    void quiet_normals(const StepProblem& problem, std::size_t k, float h);
+    void rub_points(const StepProblem& problem, std::size_t k, float h);
+    void rub_turning(const StepProblem& problem, std::size_t k, float h);
     void store_impulses(const StepProblem& problem, float h, bool first);
 
     std::vector<ContactRows> rows_;
     std::vector<Multipliers> multipliers_;
+    std::vector<std::array<Vec3, 4>>
+        held_;  // friction multipliers that the last substep ended with
     std::vector<Response> responses_;
     std::vector<Correction> corrections_;
     ImpactSolver impacts_;
