@@ -17,8 +17,8 @@ struct ContactPointReport {
     Position position = {};    ///< halfway between the two surfaces, world
     float separation = 0;      ///< m, negative where the shapes overlap
     float normal_impulse = 0;  ///< N s over the last step, >= 0, on body b along the normal
-    std::uint32_t feature =
-        0;  ///< which features of the two shapes meet here; stable while they do
+    /// Which features of the two shapes meet here; stable while they do.
+    std::uint32_t feature = 0;
 };
 
 /// One pair of shapes in touch, or about to be.
@@ -79,8 +79,8 @@ struct StepReport {
     double time = 0;                ///< s since the world began
     std::size_t pair_count = 0;     ///< pairs whose boxes overlap
     std::size_t contact_count = 0;  ///< contact points of the step
-    std::array<double, stage_count> stage_seconds =
-        {};  ///< wall time; no part of the world's state
+    /// Wall time; no part of the world's state.
+    std::array<double, stage_count> stage_seconds = {};
 };
 
 }  // namespace cairn

@@ -33,11 +33,12 @@ using Geometry = std::variant<Sphere, Box, Plane>;
 /// How a surface rubs and bounces. Where two meet: friction is the geometric mean, restitution,
 /// rolling and spinning friction the larger of the two.
 struct Material {
-    float friction = 0.6f;       ///< Coulomb coefficient, sticking and sliding alike, >= 0
-    float restitution = 0;       ///< 0 (no rebound) to 1 (no loss)
-    float rolling_friction = 0;  ///< metres: rolling torque <= this times the normal force
-    float spinning_friction =
-        0;                       ///< metres: torque about the normal <= this times the normal force
+    float friction = 0.6f;  ///< Coulomb coefficient, sticking and sliding alike, >= 0
+    float restitution = 0;  ///< 0 (no rebound) to 1 (no loss)
+    /// Metres: the torque across the normal is at most this times the normal force.
+    float rolling_friction = 0;
+    /// Metres: the torque about the normal is at most this times the normal force.
+    float spinning_friction = 0;
     Vec3 surface_velocity = {};  ///< m/s in the body frame: a conveyor's belt
     friend constexpr bool operator==(const Material&, const Material&) = default;
 };

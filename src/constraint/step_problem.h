@@ -20,12 +20,13 @@ struct StepProblem {
     std::span<BodyMotion> motions;
     std::span<const BodyInertia> inertias;
     std::span<const BodyDrive> drives;
-    std::span<const float>
-        heights;  // of the centers of mass against gravity, m, when the step began
-    std::span<const std::uint32_t> moving;  // kinematic and dynamic bodies, ascending
+    // Of the centers of mass against gravity when the step began, m.
+    std::span<const float> heights;
+    // Kinematic and dynamic bodies, ascending.
+    std::span<const std::uint32_t> moving;
     std::span<Contact> contacts;
-    std::span<const std::uint32_t>
-        active;  // the contacts with points, in ascending order of their keys
+    // The contacts with points, in ascending order of their keys.
+    std::span<const std::uint32_t> active;
 
     Vec3 gravity;
     double dt = 0;

@@ -48,8 +48,8 @@ struct Contact {
     float rolling_friction = 0;
     float spinning_friction = 0;
     Vec3 surface_velocity;  // of B's surface less A's, world, beyond the bodies' own motion
-    float size =
-        0;  // the smaller of the shapes' smallest half extents: what lengths are measured by
+    // The smaller of the shapes' smallest half extents: what lengths are measured by.
+    float size = 0;
     // Where the surfaces slide along each other within a step, the contact stays with this one's
     // feature: the round shape's lowest point, the smaller shape's corner.
     bool stays_with_a = false;
@@ -62,8 +62,8 @@ struct Contact {
     Vec3 rolling_impulse;       // N m s on B over the last step
     float spinning_impulse = 0;
 
-    float first_overlap =
-        0;  // m: how deep the shapes overlapped when they met, as far as still borne
+    // How deep the shapes overlapped when they met, m, as far as it is still borne.
+    float first_overlap = 0;
 
     Axis axis;  // the narrow phase's answer, in shape A's frame
     AxisHint hint;

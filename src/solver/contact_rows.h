@@ -23,8 +23,8 @@ struct PointRow {
     Vec3 turn_a, turn_b;    // r x n: torque of a unit normal impulse
     Vec3 spin_a, spin_b;    // I^-1 (r x n): the angular velocity that it gives
     float normal_mass = 0;  // 1 / K(n)
-    float tangent_mass =
-        0;  // 1 / the largest K across n: a step that never overshoots, in any direction
+    // 1 / the largest K across n: a step that never overshoots, in any direction.
+    float tangent_mass = 0;
 };
 
 struct ContactRows {

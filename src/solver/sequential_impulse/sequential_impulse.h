@@ -3,20 +3,28 @@
 // started from the last step, then overlap removed on positions alone.
 //
 // One substep of length h:
-//   impacts                  bounces, before any force acts (solver/impact.h)
-//   velocities               v += h a, w += h I^-1 torque
-//   warm start               the last substep's impulses
-//   iterations, each:        friction of every contact, then its normal impulses; sweeps alternate
-//   in direction poses                    x += h v, free rotation positional correction    pseudo
-//   impulses on poses; velocities never learn of it
+//   impacts                 bounces, before any force acts (solver/impact.h)
+//   velocities              v += h a, w += h I^-1 torque
+//   warm start              the last substep's impulses; for new contacts, the weight that they
+//                           will bear (first_guess.h)
+//   iterations, each:       friction of every contact, then its normal impulses, the points of a
+//                           manifold together; sweeps go to and fro; between two, a step along the
+//                           conjugate direction
+//   poses                   x += h v, free rotation
+//   positional correction   pseudo impulses on poses; velocities never learn of it
 //
 // Rows at a point: n.v_rel >= -max(s, 0)/h with impulse l >= 0; across the normal |l_t| <= mu l
 // against v_t, on a circle: l_t <- clamp(l_t - m_t v_t), with one mass m_t for all directions,
-// whose fixed point opposes the sliding exactly (a 2x2 block solve would favour the stiff
-// direction).
+// whose fixed point opposes the sliding exactly (a 2x2 block solve would favour the stiff one).
+//
+// Conjugate directions: with d the change of a sweep, in the norm of J (change squared over the
+// row's mass), beta = |d|^2 / |d_before|^2; the next direction is beta times the last plus d, and
+// the impulses move on by beta times the last. A beta above 1 starts anew.
 //
 // Sources: Catto, "Iterative Dynamics with Temporal Coherence", GDC 2005, and "Modeling and Solving
-// Constraints", GDC 2009. Departures: the circle, the even sharing of loads, restitution apart.
+// Constraints", GDC 2009; Silcowitz, Niebuhr, Erleben, "A Nonsmooth Nonlinear Conjugate Gradient
+// Method for Interactive Contact Force Problems", The Visual Computer 2010. Departures: the circle,
+// the manifolds as blocks, the even sharing of loads, the first guess, restitution apart.
 
 #include <vector>
 

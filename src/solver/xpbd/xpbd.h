@@ -3,26 +3,29 @@
 // velocities from the corrections.
 //
 // One substep of length h:
-//   impacts              bounces as a velocity pass, before any force acts (solver/impact.h)
-//   predict              v += h a, x += h v; w += h I^-1 torque, free rotation
-//   correct positions    C = s where s < 0: dl = (-C - a l) / (K(n) + a), a = compliance/h^2, l >=
-//   0 summed over
-//                        the substep, the points of a manifold together
-//   velocities           v += dx/h, w += dtheta/h for the corrections dx, dtheta
-//   velocity pass        the speed along n that the corrections made or left is taken away;
-//   friction, static
-//                        and dynamic, brings the sliding to rest as far as |l_t| <= mu l allows
+//   impacts             bounces as a velocity pass, before any force acts (solver/impact.h)
+//   predict             v += h a, and the friction that the last substep ended with; x += h v;
+//                       w += h I^-1 torque, free rotation
+//   correct positions   C = s where s < 0: dl = (-C - a l) / (K(n) + a), a = compliance/h^2, l >= 0
+//                       summed from zero over the substep, the points of a manifold together
+//   velocities          v += dx/h, w += dtheta/h for the corrections dx, dtheta
+//   velocity pass       the speed along n that the corrections made or left is taken away;
+//                       friction, static and dynamic, brings the sliding to rest as far as
+//                       |l_t| <= mu l allows
 //
 // Corrections are kept apart from the prediction, so velocities never come from a difference of
 // rounded positions; both bodies are corrected at one common point, so momentum is conserved.
 //
 // Source: Mueller, Macklin, Chentanez, Jeschke, Kim, "Detailed Rigid Body Simulation with Extended
-// Position Based Dynamics", SCA 2020. Departures: static friction acts in the velocity pass, as one
-// law with the dynamic one (multipliers begin each substep at zero, so one sweep never balances a
-// load; positional friction then sees a sliding that is none, and its torque makes a column of two
-// boxes sway by itself); the circle in place of all or nothing, which also mends the published
-// bound h mu f_n, lacking its factor w_1 + w_2; rotation by exponential map; an overlap with which
-// two shapes meet is removed at a limited speed.
+// Position Based Dynamics", SCA 2020. Departures:
+// - static friction acts in the velocity pass, as one law with the dynamic one, and begins where it
+//   ended. A positional friction sees the sliding that one unfinished sweep leaves, and its torque
+//   makes a column of two boxes sway by itself; and since friction turns what stands on it, the
+//   prediction must know it, or the next normals turn it back and a block creeps down its slope.
+// - the circle in place of all or nothing, which also mends the published bound h mu f_n, lacking
+//   its factor w_1 + w_2; rotation by exponential map.
+// - an overlap with which two shapes meet is removed at a limited speed.
+// Normal multipliers do begin at zero: carried over, they and the positions drive each other.
 
 #include <vector>
 
