@@ -77,6 +77,8 @@ Scene make_card_house(std::span<const double> values) {
     scene.description = "Cards of 400 x 200 x 2 mm that lean together 25 degrees off upright.";
     scene.duration = 10;
     scene.dt = 1.0 / 240;
+    // With the usual ten iterations the crown of five storeys sinks by 0.2 m; with thirty it stays up.
+    scene.world.step.iterations = 30;
     scene.camera = {
         {narrow(0.175 * storeys + 0.8), narrow(0.3 * storeys), narrow(0.8 + 0.5 * storeys)},
         {narrow(0.175 * storeys - 0.1), narrow(0.17 * storeys), 0}};
@@ -128,7 +130,7 @@ Scene make_pit(std::span<const double> values) {
     scene.duration = 10;
     // The pit grows with what it has to hold: about eight layers when the heap has settled.
     const int across = std::max(3, static_cast<int>(std::ceil(std::sqrt(count / 8.0))));
-    const double pitch = 0.7, inner = 0.5 * across * pitch + 0.2,
+    const double pitch = 0.76, inner = 0.5 * across * pitch + 0.2,
                  wall_half_height = 0.5 * inner + 1.5;
     const float reach = narrow(inner + 0.5), high = narrow(wall_half_height);
     scene.camera = {{narrow(1.6 * inner + 3), narrow(2.4 * inner + 5), narrow(2.2 * inner + 4)},

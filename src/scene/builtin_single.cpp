@@ -108,22 +108,26 @@ Scene make_conveyor(std::span<const double> values) {
     scene.duration = 16;
     scene.camera = {{1, 6, 12}, {0, 1.5f, 0}};
     scene.bodies.push_back(make_ground());
-    // Each belt reaches half a metre further than the end of the one above, and a wall keeps the
-    // parcels in.
+    // Each belt ends short of the one below, rails keep the parcels on, and walls stop them at the
+    // turns.
     const double heights[] = {3.2, 2.0, 0.8}, shifts[] = {-0.6, 0.6, -0.6};
+    const Material slippery = {.friction = 0};
     for (int i = 0; i < 3; ++i) {
         const float way = i % 2 == 0 ? speed : -speed;
         scene.bodies.push_back(make_block(fmt::format("belt[{}]", i), {shifts[i], heights[i], 0},
                                           {3, 0.1f, 0.8f},
                                           {.friction = 0.5f, .surface_velocity = {way, 0, 0}}));
+        for (const double side : {-1.0, 1.0}) {
+            scene.bodies.push_back(make_block(fmt::format("rail[{},{}]", i, side < 0 ? "-z" : "+z"),
+                                              {0, heights[i] + 0.1, side * 0.86},
+                                              {3.65f, 0.2f, 0.05f}, slippery));
+        }
     }
-    scene.bodies.push_back(
-        make_block("wall[0]", {4.2, 3.0, 0}, {0.1f, 1.2f, 0.8f}, {.friction = 0.1f}));
-    scene.bodies.push_back(
-        make_block("wall[1]", {-4.2, 1.8, 0}, {0.1f, 1.2f, 0.8f}, {.friction = 0.1f}));
-    // Parcels hang in a row above the first belt and land one after the other.
+    scene.bodies.push_back(make_block("wall[0]", {3.75, 3.0, 0}, {0.1f, 1.2f, 0.9f}, slippery));
+    scene.bodies.push_back(make_block("wall[1]", {-3.75, 1.8, 0}, {0.1f, 1.2f, 0.9f}, slippery));
+    // Parcels fall on the highest belt, six abreast, one layer after the other.
     for (int i = 0; i < count; ++i) {
-        const Position p = {-3 + 0.05 * (i % 3), 3.6 + 0.9 * i, 0.25 * (i % 3 - 1)};
+        const Position p = {-3 + 0.8 * (i % 6), 3.55 + 0.6 * (i / 6), 0.25 * (i % 3 - 1)};
         const float half = narrow(0.14 + 0.03 * (i % 3));
         scene.bodies.push_back(make_box(fmt::format("parcel[{}]", i), p, {1.3f * half, half, half},
                                         {.friction = 0.5f}, 300));
