@@ -1,11 +1,10 @@
 // Draws the README's pictures: runs built-in scenes, opens their replay pages in a headless
 // Chromium and writes docs/pictures/NAME.png, and docs/pictures/showcase.gif, which moves.
 //
-//   node tools/make_pictures.mjs [--cairn PATH] [--no-gif] [NAME ...]      all built-in scenes
-// without names
+//   node tools/make_pictures.mjs [--cairn PATH] [--no-gif] [NAME ...]
 //
-// Needs: chromium, imagemagick (convert), and `npm ci` in tests/replay. Software WebGL takes about
-// ten seconds a picture and two a frame of the film.
+// Without names: all built-in scenes. Needs chromium, imagemagick (convert), ffmpeg, and `npm ci` in
+// tests/replay. Software WebGL takes about ten seconds a picture and two a frame of the film.
 
 import { execFileSync } from "node:child_process";
 import { mkdirSync, mkdtempSync, rmSync, statSync } from "node:fs";
@@ -15,8 +14,7 @@ import { fileURLToPath } from "node:url";
 import { open_browser, open_replay } from "../tests/replay/browser.mjs";
 
 // The moment of each scene that shows what it is about, s; others are shown at a quarter of their
-// time.
-// `options` go to the page.
+// time. `options` go to the page.
 const moments = {
   showcase: { time: 10.4 },
   drop: { time: 0.75, options: "&velocities=on" },
@@ -41,7 +39,6 @@ const film = {
   end: 11,
   width: 480,
   height: 300,
-  colours: 112,
 };
 const most_bytes = { png: 60e3, gif: 3e6 };
 
@@ -134,25 +131,13 @@ async function draw_film(browser, html, work) {
   }
   await context.close();
   const path = join(folder, `${film.scene}.gif`);
-  // One palette for all frames, and of each frame only what changed.
-  execFileSync("convert", [
-    "-delay",
-    String(Math.round(100 / film.frames_a_second)),
-    "-loop",
-    "0",
-    ...frames,
-    "-dither",
-    "None",
-    "+remap",
-    "-colors",
-    String(film.colours),
-    "-fuzz",
-    "1.2%",
-    "-layers",
-    "OptimizeTransparency",
-    "-layers",
-    "OptimizeFrame",
-    path,
+  // One palette for all frames, and of each frame only the part that changed.
+  const palette = "palettegen=max_colors=256:stats_mode=full";
+  const paint = "paletteuse=dither=none:diff_mode=rectangle";
+  execFileSync("ffmpeg", [
+    ...["-loglevel", "error", "-y", "-framerate", String(film.frames_a_second)],
+    ...["-i", join(work, "film%04d.png"), "-vf", `split[a][b];[a]${palette}[p];[b][p]${paint}`],
+    ...["-loop", "0", path],
   ]);
   check_size(path, most_bytes.gif);
 }
