@@ -31,6 +31,8 @@ constexpr double largest_coordinate = 70368744177664.0;
 
 enum RunKind : std::uint8_t { Unchanged, Changed, New, Gone };
 
+double widen(float value) { return static_cast<double>(value); }
+
 std::int64_t round_near(double value, std::int64_t predicted) {
     const double clamped = std::clamp(value, -largest_coordinate, largest_coordinate);
     const bool as_predicted = std::abs(clamped - static_cast<double>(predicted)) <= hysteresis;
@@ -148,7 +150,8 @@ LatticePose PoseCoder::quantise(std::size_t body, const Position& position,
         pose.position[i] = round_near(offset[i] / lattice_.position_pitch, pose.position[i]);
     }
 
-    const std::array<double, 4> q = {rotation.x, rotation.y, rotation.z, rotation.w};
+    const std::array<double, 4> q = {widen(rotation.x), widen(rotation.y), widen(rotation.z),
+                                     widen(rotation.w)};
     const auto smaller = [](double a, double b) { return std::abs(a) < std::abs(b); };
     if (std::abs(q[pose.dropped]) < smallest_dropped) {
         const auto largest = std::max_element(q.begin(), q.end(), smaller);
@@ -240,7 +243,7 @@ double decode_log(std::int64_t code, double unit) {
 
 std::array<std::int64_t, 2> encode_normal(const Vec3& normal) {
     // The sphere's projection onto an octahedron, whose lower half is folded out over the corners.
-    const double x = normal.x, y = normal.y, z = normal.z;
+    const double x = widen(normal.x), y = widen(normal.y), z = widen(normal.z);
     const double sum = std::max(std::abs(x) + std::abs(y) + std::abs(z), 1e-30);
     double u = x / sum, v = y / sum;
     if (z < 0) {
@@ -286,10 +289,10 @@ std::vector<LatticeContact> ContactCoder::quantise(std::vector<ContactSample> co
         const auto normal = encode_normal(contact.normal);
         fields[NormalU] = normal[0];
         fields[NormalV] = normal[1];
-        fields[Separation] = encode_log(static_cast<double>(contact.separation),
-                                        lattice_.separation_unit, fields[Separation]);
-        fields[Impulse] = encode_log(static_cast<double>(contact.impulse), lattice_.impulse_unit,
-                                     fields[Impulse]);
+        fields[Separation] =
+            encode_log(widen(contact.separation), lattice_.separation_unit, fields[Separation]);
+        fields[Impulse] =
+            encode_log(widen(contact.impulse), lattice_.impulse_unit, fields[Impulse]);
         frame.push_back(coded);
     }
     return frame;
