@@ -68,7 +68,7 @@
       add("kind", "Kind", [KINDS[kinds[body]]]);
       add("shape", "Shape", describe_shapes(header, body));
       if (kinds[body] === "d") add("mass", "Mass", [cairn.format_si(mass[body] * 1000, "g")]);
-      add("position", "Position", [""]);
+      add("position", "Centre", [""]);
       if (kinds[body] !== "s") {
         add("speed", "Speed", [""]);
         add("spin", "Spin", [""]);
