@@ -117,8 +117,8 @@ void spin_top(const Setup& setup, Sheet& sheet) {
     const TopError own = run_top(setup, setup.dt, 0, 5);
     sheet.bound("attitude off after 5 s, degrees", degrees(own.turn), 2);
     sheet.bound("spin in the body's frame off after 5 s, degrees", degrees(own.spin), 2);
-    // Midpoint claims order 2. One substep a step, and from 1/60: at finer steps the error is that of
-    // binary32's roundings, which no smaller step makes less.
+    // Midpoint claims order 2. One substep a step, and from 1/60: at finer steps the error is that
+    // of binary32's roundings, which no smaller step makes less.
     if (!is_coarse(setup)) return;
     const double coarse = run_top(setup, setup.dt, 1, 5).turn;
     const double fine = run_top(setup, setup.dt / 2, 1, 5).turn;
