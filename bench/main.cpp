@@ -46,8 +46,8 @@ std::vector<EngineEntry> all_engines() {
 void print_table(const std::vector<EngineEntry>& engines,
                  const std::vector<std::vector<Run>>& runs) {
     std::printf(
-        "| engine | budget | ms a step: median (least to most) | processor ms | of Cairn's | "
-        "top box drifted by | deepest penetration | kinetic energy |\n");
+        "| engine | budget | processor ms a step: median (least to most) | ratio | wall ms | top "
+        "box drifted by | deepest penetration | kinetic energy |\n");
     std::printf("|---|---|---|---|---|---|---|---|\n");
     double reference = 0;
     for (std::size_t i = 0; i < engines.size(); ++i) {
