@@ -49,6 +49,7 @@ find src tools bench -name '*.h' -o -name '*.cpp' | sort | xargs awk -v list="$l
         while ((getline line < list) > 0) {
             if (line ~ /^#/ || split(line, column, "|") != 3) continue
             gsub(/ /, "", column[1])
+            gsub(/ +/, " ", column[2])
             allowed[column[1]] = " " column[2] " "
         }
         # Programs outside src/ stand on the public headers and the scene room.
