@@ -121,6 +121,14 @@ void build_card_house(const Setup& setup, Sheet& sheet) {
     sheet.compare("crown's right card, m", center_of(world, crown[1]).z, 1.66, 0.1);
 }
 
+// The rows' derivation in short; docs/validation.md has it whole, with the figures that bear it
+// out.
+constexpr std::string_view cards_creep =
+    "Ten sweeps of Gauss-Seidel, to and fro, leave 0.80 of the slowest error of ten contacts in "
+    "series (0.978 a sweep); what is left lets the cards creep at a speed of the order of g h, and "
+    "the house falls after a time of the order of 1/h. With 160 iterations it stands at both "
+    "steps.";
+
 }  // namespace
 
 std::vector<Case> structure_cases() {
@@ -131,7 +139,8 @@ std::vector<Case> structure_cases() {
         {.id = "F11",
          .title = "a house of cards",
          .subject = Subject::Piling,
-         .run = build_card_house},
+         .run = build_card_house,
+         .known_unmet = {{"", Solver::SequentialImpulse, 0, cards_creep}}},
     };
 }
 
