@@ -216,7 +216,7 @@ std::vector<Case> free_body_cases() {
     return {
         {.id = "A01", .title = "free fall", .run = fall_freely, .quick = true},
         {.id = "A02", .title = "a thrown box's spin", .run = throw_spinning, .quick = true},
-        {.id = "A03", .title = "a turning ball", .run = spin_ball},
+        {.id = "A03", .title = "a turning ball", .run = spin_ball, .quick = true},
         {.id = "A04", .title = "a symmetric top", .run = spin_top, .quick = true},
         {.id = "A05", .title = "a box about its middle axis", .run = flip_box, .quick = true},
         {.id = "A07",
