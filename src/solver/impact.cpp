@@ -12,6 +12,8 @@ constexpr int most_rounds = 64;
 // that ends them.
 constexpr int most_sweeps = 50;
 constexpr float settled_share = 1e-5f;
+// Work below this share of what was spent is rounding.
+constexpr float rounding_share = 1e-4f;
 
 Vec3 free_acceleration(const StepProblem& problem, std::uint32_t body) {
     const BodyInertia& inertia = problem.inertias[body];
@@ -43,12 +45,14 @@ bool ImpactSolver::collect(const StepProblem& problem, std::span<const ContactRo
         bool any = false;
         for (int i = 0; i < row.point_count; ++i) {
             const PointRow& p = row.points[std::size_t(i)];
-            const float u = dot(row.normal, relative_velocity(a, p.r_a, b, p.r_b));
+            const Vec3 v = relative_velocity(a, p.r_a, b, p.r_b);
+            const float u = dot(row.normal, v);
             if (!(u < -problem.restitution_threshold)) continue;
             const float acceleration = dot(row.normal, free_acceleration(problem, row.body_b) -
                                                            free_acceleration(problem, row.body_a));
             if (!(p.separation + h * (u + h * acceleration) < 0)) continue;
             strike.strikes[std::size_t(i)] = true;
+            strike.before[std::size_t(i)] = v + row.surface_velocity;
             strike.target[std::size_t(i)] =
                 rebound_speed(u, p.separation, acceleration, h, row.restitution);
             any = true;
@@ -95,6 +99,40 @@ float ImpactSolver::solve_round(const StepProblem& problem, std::span<const Resp
     return largest_change;
 }
 
+void ImpactSolver::forbid_gain(const StepProblem& problem, std::span<const Response> responses,
+                               std::span<const ContactRows> rows) {
+    for (Strike& strike : strikes_) {
+        const ContactRows& row = rows[strike.row];
+        BodyMotion& a = problem.motions[row.body_a];
+        BodyMotion& b = problem.motions[row.body_b];
+        // The work of the impulses scaled by x is x spent + x^2 made / 2, to which the rebound
+        // alone may add `due`.
+        float spent = 0;
+        float made = 0;
+        float due = 0;
+        for (std::size_t i = 0; i < std::size_t(row.point_count); ++i) {
+            if (!strike.strikes[i]) continue;
+            const PointRow& p = row.points[i];
+            const Vec3 impulse = strike.normal_impulse[i] * row.normal + strike.friction_impulse[i];
+            const Vec3 after = relative_velocity(a, p.r_a, b, p.r_b) + row.surface_velocity;
+            spent += dot(impulse, strike.before[i]);
+            made += dot(impulse, after - strike.before[i]);
+            const float closing = dot(row.normal, strike.before[i]);
+            due += 0.5f * strike.normal_impulse[i] * max(0, strike.target[i] + closing);
+        }
+        if (spent + 0.5f * made <= due + rounding_share * absolute(spent)) continue;
+        const float kept = made > 0 ? clamp(-2.0f * spent / made, 0, 1) : 0;
+        for (std::size_t i = 0; i < std::size_t(row.point_count); ++i) {
+            const PointRow& p = row.points[i];
+            const Vec3 impulse = strike.normal_impulse[i] * row.normal + strike.friction_impulse[i];
+            apply_impulse(a, responses[row.body_a], p.r_a, b, responses[row.body_b], p.r_b,
+                          (kept - 1.0f) * impulse);
+            strike.normal_impulse[i] = kept * strike.normal_impulse[i];
+            strike.friction_impulse[i] = kept * strike.friction_impulse[i];
+        }
+    }
+}
+
 void ImpactSolver::report(const StepProblem& problem, std::span<const ContactRows> rows) const {
     for (const Strike& strike : strikes_) {
         Contact& contact = problem.contacts[rows[strike.row].contact];
@@ -117,6 +155,7 @@ void ImpactSolver::resolve(const StepProblem& problem, std::span<const Response>
             const float change = solve_round(problem, responses, rows, sweep % 2 == 1);
             if (change <= settled_share * fastest) break;
         }
+        forbid_gain(problem, responses, rows);
         report(problem, rows);
     }
 }

@@ -6,6 +6,11 @@
 // friction on a circle), each toward Newton's rebound; what they set in motion may strike others,
 // which makes the next round, so that a row of balls passes momentum on to the last one.
 //
+// Newton's rebound and Coulomb's friction together can make energy out of nothing where a spinning
+// corner strikes (Kane and Levinson 1985). What a strike's impulses P do to the bodies is work, sum
+// P.(v_before + v_after)/2; where that exceeds what the rebound alone would give, all of P is
+// shortened until the work is nothing.
+//
 // The rebound's speed counts for where in the substep the surfaces meet. For a relative
 // acceleration a along n, semi-implicit Euler conserves Q = u^2/2 - a s + h a u/2 (u = n.v_rel, s
 // the separation) in free flight. A bounce that sets u' so that Q' = e^2 Q, both seen from s = 0,
@@ -33,11 +38,14 @@ private:
         std::array<float, 4> target = {};  // n.v_rel after the impact
         std::array<float, 4> normal_impulse = {};
         std::array<Vec3, 4> friction_impulse = {};
+        std::array<Vec3, 4> before = {};  // relative velocity of the surfaces when they struck
     };
 
     bool collect(const StepProblem& problem, std::span<const ContactRows> rows, float h);
     float solve_round(const StepProblem& problem, std::span<const Response> responses,
                       std::span<const ContactRows> rows, bool backward);
+    void forbid_gain(const StepProblem& problem, std::span<const Response> responses,
+                     std::span<const ContactRows> rows);
     void report(const StepProblem& problem, std::span<const ContactRows> rows) const;
 
     std::vector<Strike> strikes_;
