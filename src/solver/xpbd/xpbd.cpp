@@ -52,9 +52,12 @@ void Xpbd::recall(const StepProblem& problem, float h) {
     held_.assign(rows_.size(), {});
     for (std::size_t k = 0; k < rows_.size(); ++k) {
         const Contact& contact = problem.contacts[rows_[k].contact];
+        Held& held = held_[k];
         for (std::size_t i = 0; i < std::size_t(rows_[k].point_count); ++i) {
-            held_[k][i] = (h * h) * contact.points[i].friction_force;
+            held.friction[i] = (h * h) * contact.points[i].friction_force;
+            held.load += (h * h) * contact.points[i].normal_force;
         }
+        held.load_before = held.load;
     }
 }
 
@@ -79,17 +82,21 @@ void Xpbd::predict(const StepProblem& problem, float h) {
 }
 
 void Xpbd::warm_start(const StepProblem& problem, float h) {
-    const float inverse_h = 1.0f / h;
     for (std::size_t k = 0; k < rows_.size(); ++k) {
         const ContactRows& row = rows_[k];
+        const Held& held = held_[k];
+        // A steady load's friction is the right one; that of a shock, carried on, would feed the
+        // normals that answer its torque, and they it, until a heap throws a body out.
+        const float larger = max(held.load, held.load_before);
+        if (!(larger > 0)) continue;
+        const float steady = min(held.load, held.load_before) / larger;
         Multipliers& sum = multipliers_[k];
         for (std::size_t i = 0; i < std::size_t(row.point_count); ++i) {
-            if (held_[k][i] == Vec3{}) continue;
             const PointRow& p = row.points[i];
-            sum.friction[i] = without_normal(held_[k][i], row.normal);
+            sum.friction[i] = steady * without_normal(held.friction[i], row.normal);
             apply_impulse(problem.motions[row.body_a], responses_[row.body_a], p.r_a,
                           problem.motions[row.body_b], responses_[row.body_b], p.r_b,
-                          inverse_h * sum.friction[i]);
+                          (1.0f / h) * sum.friction[i]);
         }
     }
 }
@@ -167,7 +174,9 @@ void Xpbd::solve_velocities(const StepProblem& problem, float h) {
         quiet_normals(problem, k, h);
         rub_points(problem, k, h);
         if (row.rolling_friction > 0 || row.spinning_friction > 0) rub_turning(problem, k, h);
-        held_[k] = sum.friction;
+        float load = 0;
+        for (const float normal : sum.normal) load += normal;
+        held_[k] = {sum.friction, load, held_[k].load};
     }
 }
 

@@ -56,6 +56,14 @@ private:
         std::array<float, 4> approach = {};    // n.v_rel before the substep's forces
     };
 
+    // What the last substep ended with, one entry a row set: friction multipliers, the sum of the
+    // normal ones, and that of the substep before it.
+    struct Held {
+        std::array<Vec3, 4> friction = {};
+        float load = 0;
+        float load_before = 0;
+    };
+
     void recall(const StepProblem& problem, float h);
     void warm_start(const StepProblem& problem, float h);
     void predict(const StepProblem& problem, float h);
@@ -70,8 +78,7 @@ private:
 
     std::vector<ContactRows> rows_;
     std::vector<Multipliers> multipliers_;
-    std::vector<std::array<Vec3, 4>>
-        held_;  // friction multipliers that the last substep ended with
+    std::vector<Held> held_;
     std::vector<Response> responses_;
     std::vector<Correction> corrections_;
     ImpactSolver impacts_;
