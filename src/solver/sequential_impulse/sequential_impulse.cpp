@@ -47,59 +47,38 @@ void SequentialImpulse::solve(const StepProblem& problem, float h) {
     directions_.assign(rows_.size(), {});
     float last_squared = 0;
     for (int iteration = 0; iteration < problem.iterations; ++iteration) {
-        before_ = accumulated_;
+        changes_ = accumulated_;
         solve_velocities(problem, h, iteration % 2 == 1);
         if (iteration + 1 == problem.iterations) return;
         // How far the sweep went, in J: comparable between light and heavy.
         float squared = 0;
-        for (std::size_t k = 0; k < rows_.size(); ++k)
-            squared += find_change(rows_[k], before_[k], accumulated_[k]);
+        for (std::size_t k = 0; k < rows_.size(); ++k) {
+            changes_[k] = accumulated_[k].plus(-1, changes_[k]);
+            squared += square_in_joules(rows_[k], changes_[k]);
+        }
         const float beta = last_squared > 0 ? squared / last_squared : 0;
         last_squared = squared;
         accelerate(problem, beta <= 1 ? beta : 0);
     }
 }
 
-float SequentialImpulse::find_change(const ContactRows& row, Accumulated& before,
-                                     const Accumulated& after) {
-    float squared = 0;
+float SequentialImpulse::square_in_joules(const ContactRows& row, const Impulses& impulses) {
     const auto weigh = [](float x, float mass) { return mass > 0 ? x / mass : 0; };
+    float squared = 0;
     for (std::size_t i = 0; i < std::size_t(row.point_count); ++i) {
-        const PointRow& p = row.points[i];
-        before.normal[i] = after.normal[i] - before.normal[i];
-        before.friction[i] = after.friction[i] - before.friction[i];
-        squared += weigh(square(before.normal[i]), p.normal_mass) +
-                   weigh(length_squared(before.friction[i]), p.tangent_mass);
+        squared += weigh(square(impulses.normal[i]), row.points[i].normal_mass) +
+                   weigh(length_squared(impulses.friction[i]), row.points[i].tangent_mass);
     }
-    before.rolling = after.rolling - before.rolling;
-    before.spinning = after.spinning - before.spinning;
-    return squared + weigh(length_squared(before.rolling), row.rolling_mass) +
-           weigh(square(before.spinning), row.spinning_mass);
+    return squared + weigh(length_squared(impulses.rolling), row.rolling_mass) +
+           weigh(square(impulses.spinning), row.spinning_mass);
 }
 
 void SequentialImpulse::accelerate(const StepProblem& problem, float beta) {
     for (std::size_t k = 0; k < rows_.size(); ++k) {
-        Accumulated& d = directions_[k];
-        const Accumulated& change = before_[k];
-        Accumulated extra;
-        for (std::size_t i = 0; i < 4; ++i) {
-            extra.normal[i] = beta * d.normal[i];
-            extra.friction[i] = beta * d.friction[i];
-            d.normal[i] = extra.normal[i] + change.normal[i];
-            d.friction[i] = extra.friction[i] + change.friction[i];
-        }
-        extra.rolling = beta * d.rolling;
-        extra.spinning = beta * d.spinning;
-        d.rolling = extra.rolling + change.rolling;
-        d.spinning = extra.spinning + change.spinning;
+        const Impulses extra = Impulses{}.plus(beta, directions_[k]);
+        directions_[k] = extra.plus(1, changes_[k]);
         if (beta == 0) continue;
-        Accumulated& sum = accumulated_[k];
-        for (std::size_t i = 0; i < 4; ++i) {
-            sum.normal[i] += extra.normal[i];
-            sum.friction[i] += extra.friction[i];
-        }
-        sum.rolling += extra.rolling;
-        sum.spinning += extra.spinning;
+        accumulated_[k] = accumulated_[k].plus(1, extra);
         apply(problem, rows_[k], extra);
     }
 }
@@ -119,7 +98,7 @@ void SequentialImpulse::load_impulses(const StepProblem& problem, float h) {
     for (std::size_t k = 0; k < rows_.size(); ++k) {
         const ContactRows& row = rows_[k];
         const Contact& contact = problem.contacts[row.contact];
-        Accumulated& sum = accumulated_[k];
+        Impulses& sum = accumulated_[k];
         const float share = (loads_[k] - remembered_[k]) / float(row.point_count);
         for (std::size_t i = 0; i < std::size_t(row.point_count); ++i) sum.normal[i] += share;
         share_evenly(row, sum.normal);
@@ -135,7 +114,7 @@ void SequentialImpulse::load_impulses(const StepProblem& problem, float h) {
 }
 
 void SequentialImpulse::apply(const StepProblem& problem, const ContactRows& row,
-                              const Accumulated& impulses) {
+                              const Impulses& impulses) {
     BodyMotion& a = problem.motions[row.body_a];
     BodyMotion& b = problem.motions[row.body_b];
     const Response& response_a = responses_[row.body_a];
@@ -158,7 +137,7 @@ void SequentialImpulse::solve_velocities(const StepProblem& problem, float h, bo
     for (std::size_t index = 0; index < rows_.size(); ++index) {
         const std::size_t k = backward ? rows_.size() - 1 - index : index;
         const ContactRows& row = rows_[k];
-        Accumulated& sum = accumulated_[k];
+        Impulses& sum = accumulated_[k];
         BodyMotion& a = problem.motions[row.body_a];
         BodyMotion& b = problem.motions[row.body_b];
         const Response& response_a = responses_[row.body_a];
@@ -191,7 +170,7 @@ void SequentialImpulse::solve_velocities(const StepProblem& problem, float h, bo
     }
 }
 
-void SequentialImpulse::solve_normal_rows(const ContactRows& row, float inverse_h, Accumulated& sum,
+void SequentialImpulse::solve_normal_rows(const ContactRows& row, float inverse_h, Impulses& sum,
                                           BodyMotion& a, BodyMotion& b, const Response& response_a,
                                           const Response& response_b) {
     std::array<float, 4> velocities = {};
@@ -243,7 +222,7 @@ void SequentialImpulse::correct_positions(const StepProblem& problem) {
 void SequentialImpulse::store_impulses(const StepProblem& problem, float h) {
     const float inverse_h = 1.0f / h;
     for (std::size_t k = 0; k < rows_.size(); ++k) {
-        const Accumulated& sum = accumulated_[k];
+        const Impulses& sum = accumulated_[k];
         Contact& contact = problem.contacts[rows_[k].contact];
         for (std::size_t i = 0; i < std::size_t(rows_[k].point_count); ++i) {
             ContactPoint& point = contact.points[i];

@@ -42,29 +42,43 @@ public:
     void advance(const StepProblem& problem);
 
 private:
-    // Impulses (N s) accumulated over one substep, one entry a row set.
-    struct Accumulated {
+    // The impulses (N s) of one row set.
+    struct Impulses {
         std::array<float, 4> normal = {};
         std::array<Vec3, 4> friction = {};
         Vec3 rolling;
         float spinning = 0;
+
+        // This plus s times the other.
+        Impulses plus(float s, const Impulses& other) const {
+            Impulses sum;
+            for (std::size_t i = 0; i < 4; ++i) {
+                sum.normal[i] = normal[i] + s * other.normal[i];
+                sum.friction[i] = friction[i] + s * other.friction[i];
+            }
+            sum.rolling = rolling + s * other.rolling;
+            sum.spinning = spinning + s * other.spinning;
+            return sum;
+        }
     };
 
     void load_impulses(const StepProblem& problem, float h);
     void warm_start(const StepProblem& problem);
-    void apply(const StepProblem& problem, const ContactRows& row, const Accumulated& impulses);
+    void apply(const StepProblem& problem, const ContactRows& row, const Impulses& impulses);
     void solve(const StepProblem& problem, float h);
-    static float find_change(const ContactRows& row, Accumulated& before, const Accumulated& after);
+    static float square_in_joules(const ContactRows& row, const Impulses& impulses);
     void accelerate(const StepProblem& problem, float beta);
     void solve_velocities(const StepProblem& problem, float h, bool backward);
-    static void solve_normal_rows(const ContactRows& row, float inverse_h, Accumulated& sum,
+    static void solve_normal_rows(const ContactRows& row, float inverse_h, Impulses& sum,
                                   BodyMotion& a, BodyMotion& b, const Response& response_a,
                                   const Response& response_b);
     void correct_positions(const StepProblem& problem);
     void store_impulses(const StepProblem& problem, float h);
 
     std::vector<ContactRows> rows_;
-    std::vector<Accumulated> accumulated_, before_, directions_;
+    // One entry a row set: the sums of the substep, what the last sweep changed, and the direction
+    // in which the sums move on between two sweeps.
+    std::vector<Impulses> accumulated_, changes_, directions_;
     std::vector<Response> responses_;
     std::vector<float> loads_, remembered_;  // total normal impulse of each row set
     FirstGuess first_guess_;

@@ -141,6 +141,7 @@ void Xpbd::correct_positions(const StepProblem& problem, float h) {
         }
         const std::array<float, 4> before = sum.normal;
         solve_normals(row, compliance, c, sum.normal);
+        sum.gap = c;
         float total = 0;
         for (std::size_t i = 0; i < std::size_t(row.point_count); ++i) {
             const PointRow& p = row.points[i];
@@ -193,8 +194,10 @@ void Xpbd::quiet_normals(const StepProblem& problem, std::size_t k, float h) {
         const PointRow& p = row.points[i];
         const float u =
             linear + dot(p.turn_b, b.angular_velocity) - dot(p.turn_a, a.angular_velocity);
-        // No faster apart than before: what is faster, the push has made.
-        excess[i] = u - clamp(u, 0, max(0, sum.approach[i]));
+        // No faster apart than before: what is faster, the push has made. A point that was not
+        // pushed may close what is open in one substep.
+        const bool pushed = sum.normal[i] > 0;
+        excess[i] = pushed ? u - clamp(u, 0, max(0, sum.approach[i])) : u + max(0, sum.gap[i]) / h;
         impulses[i] = sum.normal[i] / h;
     }
     std::array<float, 4> changes = impulses;

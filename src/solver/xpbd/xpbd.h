@@ -53,6 +53,7 @@ private:
         Vec3 rolling;
         float spinning = 0;
         std::array<float, 4> separation = {};  // after the prediction
+        std::array<float, 4> gap = {};         // what the corrections have left of it
         std::array<float, 4> approach = {};    // n.v_rel before the substep's forces
     };
 
