@@ -18,9 +18,6 @@ constexpr Vec3 multiply_transposed(const Mat3& m, Vec3 v) {
     return {dot(m.x, v), dot(m.y, v), dot(m.z, v)};
 }
 constexpr Mat3 operator*(const Mat3& a, const Mat3& b) { return {a * b.x, a * b.y, a * b.z}; }
-constexpr Mat3 transpose(const Mat3& m) {
-    return {{m.x.x, m.y.x, m.z.x}, {m.x.y, m.y.y, m.z.y}, {m.x.z, m.y.z, m.z.z}};
-}
 constexpr Mat3 absolute(const Mat3& m) { return {absolute(m.x), absolute(m.y), absolute(m.z)}; }
 
 constexpr Vec3 operator*(const SymmetricMat3& m, Vec3 v) {

@@ -67,12 +67,6 @@ inline Quat exponential_map(Vec3 theta) {
 constexpr Pose operator*(const Pose& a, const Pose& b) {
     return {a.position + rotate(a.rotation, b.position), a.rotation * b.rotation};
 }
-constexpr Vec3 transform(const Pose& pose, Vec3 point) {
-    return pose.position + rotate(pose.rotation, point);
-}
-constexpr Vec3 transform_inverse(const Pose& pose, Vec3 point) {
-    return rotate_inverse(pose.rotation, point - pose.position);
-}
 constexpr Pose inverse(const Pose& pose) {
     return {-rotate_inverse(pose.rotation, pose.position), conjugate(pose.rotation)};
 }

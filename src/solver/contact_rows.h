@@ -77,13 +77,6 @@ inline void apply_impulse(BodyMotion& a, const Response& response_a, Vec3 r_a, B
     b.angular_velocity += response_b.inverse_inertia * cross(r_b, impulse);
 }
 
-inline float resistance(const Response& a, Vec3 r_a, const Response& b, Vec3 r_b, Vec3 d) {
-    const Vec3 ra_d = cross(r_a, d);
-    const Vec3 rb_d = cross(r_b, d);
-    return dot(d, multiply(a.inverse_mass + b.inverse_mass, d)) +
-           dot(ra_d, a.inverse_inertia * ra_d) + dot(rb_d, b.inverse_inertia * rb_d);
-}
-
 inline Vec3 without_normal(Vec3 v, Vec3 n) { return v - dot(v, n) * n; }
 
 // v, shortened to `limit` where it is longer: friction's circle.

@@ -4,7 +4,8 @@
 //
 // One substep of length h:
 //   impacts             bounces as a velocity pass, before any force acts (solver/impact.h)
-//   predict             v += h a, and the friction that the last substep ended with; x += h v;
+//   predict             v += h a, and the friction that the last substep ended with, as far as the
+//                       load was steady; x += h v;
 //                       w += h I^-1 torque, free rotation
 //   correct positions   C = s where s < 0: dl = (-C - a l) / (K(n) + a), a = compliance/h^2, l >= 0
 //                       summed from zero over the substep, the points of a manifold together
