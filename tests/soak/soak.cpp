@@ -23,7 +23,8 @@ namespace {
 
 using namespace cairn;
 
-// SplitMix64: small, and the same everywhere.
+// SplitMix64: small, and the same everywhere. Each roll is a statement of its own or stands in
+// braces: the order in which a call's arguments are found is the compiler's choice.
 class Dice {
 public:
     explicit Dice(std::uint64_t seed) : state_(seed) {}
@@ -112,6 +113,32 @@ World make_pit(Dice& dice) {
     return world;
 }
 
+// By an impulse, a torque, a force or a new velocity, as `choice` says.
+void shove(World& world, BodyId body, int choice, Dice& dice) {
+    switch (choice) {
+        case 2: (void)world.apply_impulse(body, dice.vector(200)); break;
+        case 3: (void)world.apply_torque(body, dice.vector(500)); break;
+        case 4: (void)world.apply_force(body, dice.vector(5000)); break;
+        default: (void)world.set_linear_velocity(body, dice.vector(5)); break;
+    }
+}
+
+void change_settings(World& world, Dice& dice) {
+    // 0 leaves a method its own budget, as half of all rolls do.
+    const auto roll_budget = [&](int most) {
+        const bool is_default = dice.below(2) == 0;
+        const int budget = 1 + dice.below(most);
+        return is_default ? 0 : budget;
+    };
+    WorldSettings settings = world.settings();
+    if (dice.below(2) == 0) settings.step.solver = Solver::SequentialImpulse;
+    if (dice.below(2) == 0) settings.step.solver = Solver::Xpbd;
+    settings.step.narrow_phase = dice.below(2) == 0 ? NarrowPhase::Sat : NarrowPhase::GjkEpa;
+    settings.step.iterations = roll_budget(15);
+    settings.step.substeps = roll_budget(20);
+    (void)world.set_settings(settings);
+}
+
 // One change of a user's, the same to the bit on worlds that are in the same state.
 void change(World& world, Dice dice) {
     const std::vector<BodyId> bodies = world.bodies();
@@ -126,11 +153,15 @@ void change(World& world, Dice dice) {
     switch (choice) {
         case 0: (void)world.create_body(roll_body(dice)); break;
         case 1: (void)world.destroy_body(any()); break;
-        case 2: (void)world.apply_impulse(any(), dice.vector(200)); break;
-        case 3: (void)world.apply_torque(any(), dice.vector(500)); break;
-        case 4: (void)world.apply_force(any(), dice.vector(5000)); break;
-        case 5: (void)world.set_linear_velocity(any(), dice.vector(5)); break;
-        case 6: (void)world.create_shape(any(), roll_shape(dice)); break;
+        case 2:
+        case 3:
+        case 4:
+        case 5: shove(world, any(), choice, dice); break;
+        case 6: {
+            const BodyId body = any();
+            (void)world.create_shape(body, roll_shape(dice));
+            break;
+        }
         case 7: {
             const BodyId body = any();
             const std::vector<ShapeId> shapes = world.shapes(body);
@@ -144,21 +175,18 @@ void change(World& world, Dice dice) {
         }
         case 9: {
             const BodyId body = any();
-            (void)world.set_locked_axes(body, {.rx = dice.below(2) == 0, .ry = dice.below(2) == 0});
+            const bool rx = dice.below(2) == 0;
+            const bool ry = dice.below(2) == 0;
+            (void)world.set_locked_axes(body, {.rx = rx, .ry = ry});
             break;
         }
-        case 10: {
-            WorldSettings settings = world.settings();
-            if (dice.below(2) == 0) settings.step.solver = Solver::SequentialImpulse;
-            if (dice.below(2) == 0) settings.step.solver = Solver::Xpbd;
-            settings.step.narrow_phase =
-                dice.below(2) == 0 ? NarrowPhase::Sat : NarrowPhase::GjkEpa;
-            settings.step.iterations = dice.below(2) * (1 + dice.below(15));
-            settings.step.substeps = dice.below(2) * (1 + dice.below(20));
-            (void)world.set_settings(settings);
-            break;
+        case 10: change_settings(world, dice); break;
+        default: {
+            const BodyId body = any();
+            const float linear = dice.between(0, 1);
+            const float angular = dice.between(0, 1);
+            (void)world.set_damping(body, linear, angular);
         }
-        default: (void)world.set_damping(any(), dice.between(0, 1), dice.between(0, 1)); break;
     }
 }
 
@@ -226,8 +254,9 @@ Failure compare_copy(World& world, Dice& dice) {
     return {};
 }
 
-// The life of one world; returns the step at which something failed.
-Failure run_world(std::uint64_t seed, int& step, double seconds_left) {
+// The life of one world; `step` is where something failed. A whole life's last state goes into
+// `hash`.
+Failure run_world(std::uint64_t seed, int& step, double seconds_left, std::uint64_t& hash) {
     const auto begin = std::chrono::steady_clock::now();
     Dice dice(seed);
     World world = make_pit(dice);
@@ -244,6 +273,7 @@ Failure run_world(std::uint64_t seed, int& step, double seconds_left) {
         const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
         if (spent.count() > seconds_left) return {};
     }
+    hash = 31 * hash + world.state_hash();
     return {};
 }
 
@@ -266,11 +296,13 @@ int main(int argc, char** argv) {
     const auto begin = std::chrono::steady_clock::now();
     std::uint64_t worlds = 0;
     std::uint64_t steps = 0;
+    std::uint64_t hash = 0;
     for (std::uint64_t world = only_world;; ++world) {
         const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
         if (spent.count() >= seconds) break;
         int step = 0;
-        const Failure failure = run_world(seed + 1000003 * world, step, seconds - spent.count());
+        const Failure failure =
+            run_world(seed + 1000003 * world, step, seconds - spent.count(), hash);
         ++worlds;
         steps += static_cast<std::uint64_t>(step);
         if (failure.what != nullptr) {
@@ -280,7 +312,9 @@ int main(int argc, char** argv) {
         }
         if (is_only_one) break;
     }
-    std::printf("soaked: %" PRIu64 " worlds, %" PRIu64 " steps, seed %" PRIu64 "\n", worlds, steps,
-                seed);
+    // The hash is of whole lives, so that two builds given the same world can be compared.
+    std::printf("soaked: %" PRIu64 " worlds, %" PRIu64 " steps, seed %" PRIu64
+                ", states %016" PRIx64 "\n",
+                worlds, steps, seed, hash);
     return 0;
 }
