@@ -12,7 +12,7 @@
 //   velocities          v += dx/h, w += dtheta/h for the corrections dx, dtheta
 //   velocity pass       the speed along n that the corrections made or left is taken away;
 //                       friction, static and dynamic, brings the sliding to rest as far as
-//                       |l_t| <= mu l allows
+//                       |l_t| <= mu l allows; again where that stirred others up
 //
 // Corrections are kept apart from the prediction, so velocities never come from a difference of
 // rounded positions; both bodies are corrected at one common point, so momentum is conserved.
@@ -73,7 +73,10 @@ private:
     void correct_positions(const StepProblem& problem, float h);
     void derive_velocities(const StepProblem& problem, float h);
     void solve_velocities(const StepProblem& problem, float h);
-    void quiet_normals(const StepProblem& problem, std::size_t k, float h);
+    // One row set of the velocity pass; whether it changed enough for another sweep.
+    bool solve_velocity(const StepProblem& problem, std::size_t k, float h, int sweep);
+    // Returns the largest change of a point's speed along the normal, m/s.
+    float quiet_normals(const StepProblem& problem, std::size_t k, float h);
     void rub_points(const StepProblem& problem, std::size_t k, float h);
     void rub_turning(const StepProblem& problem, std::size_t k, float h);
     void store_impulses(const StepProblem& problem, float h, bool first);
@@ -83,6 +86,7 @@ private:
     std::vector<Held> held_;
     std::vector<Response> responses_;
     std::vector<Correction> corrections_;
+    std::vector<int> stirred_in_;  // the sweep of the velocity pass that last stirred the body
     ImpactSolver impacts_;
 };
 
