@@ -4,7 +4,8 @@
 # - the core (every room of src/ but scene/) gives the same bits on every machine: no mathematical function
 #   of the C library but those that are exact (sqrt, abs, floor, ceil, isfinite ...), no <random>, no
 #   container whose order depends on addresses or hashing;
-# - it is a guest in its host: throws nothing, prints nothing, never ends the process, starts no thread;
+# - it is a guest in its host: throws nothing, prints nothing, never ends the process, and starts no
+#   thread but where src/base/os_thread does, for a user who asked for some;
 # - scene files and built-in scenes reach worlds, so scene/ keeps to the first of these too, all but its
 #   results and its replay, which only look on;
 # - files are of a size that can be read: 600 lines, no tabs, no space at a line's end;
@@ -35,6 +36,9 @@ find src include -name '*.h' -o -name '*.cpp' | sort | xargs awk '
     core && code ~ /<(iostream|cstdio|stdio\.h|fstream|thread|future)>|std::(cout|cerr|clog|exit|abort|terminate)|[^A-Za-z0-9_](printf|puts|exit|abort) *\(/ &&
         FILENAME !~ /^src\/base\/assert/ {
         complain("the library prints nothing, never ends the process and starts no thread")
+    }
+    code ~ /<pthread\.h>/ && FILENAME !~ /^src\/base\/os_thread/ {
+        complain("threads are started in src/base/os_thread alone")
     }
     END { exit bad }' && core_is_clean=yes || core_is_clean=no
 
