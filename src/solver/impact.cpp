@@ -99,33 +99,65 @@ float ImpactSolver::solve_round(const StepProblem& problem, std::span<const Resp
     return largest_change;
 }
 
+void ImpactSolver::group(const StepProblem& problem, std::span<const ContactRows> rows) {
+    works_.resize(problem.motions.size());
+    for (const Strike& strike : strikes_) {
+        for (const std::uint32_t body : {rows[strike.row].body_a, rows[strike.row].body_b}) {
+            works_[body] = {.group = body};
+        }
+    }
+    for (const Strike& strike : strikes_) {
+        const ContactRows& row = rows[strike.row];
+        // Impulses do not pass through what nothing moves.
+        if (problem.inertias[row.body_a].inverse_mass == 0) continue;
+        if (problem.inertias[row.body_b].inverse_mass == 0) continue;
+        works_[find_group(row.body_b)].group = find_group(row.body_a);
+    }
+}
+
+std::uint32_t ImpactSolver::find_group(std::uint32_t body) {
+    while (works_[body].group != body) {
+        works_[body].group = works_[works_[body].group].group;
+        body = works_[body].group;
+    }
+    return body;
+}
+
+ImpactSolver::Work& ImpactSolver::find_work(const StepProblem& problem, const ContactRows& row) {
+    const bool moves_a = problem.inertias[row.body_a].inverse_mass > 0;
+    return works_[find_group(moves_a ? row.body_a : row.body_b)];
+}
+
 void ImpactSolver::forbid_gain(const StepProblem& problem, std::span<const Response> responses,
                                std::span<const ContactRows> rows) {
-    for (Strike& strike : strikes_) {
+    group(problem, rows);
+    for (const Strike& strike : strikes_) {
         const ContactRows& row = rows[strike.row];
-        BodyMotion& a = problem.motions[row.body_a];
-        BodyMotion& b = problem.motions[row.body_b];
-        // The work of the impulses scaled by x is x spent + x^2 made / 2, to which the rebound
-        // alone may add `due`.
-        float spent = 0;
-        float made = 0;
-        float due = 0;
+        const BodyMotion& a = problem.motions[row.body_a];
+        const BodyMotion& b = problem.motions[row.body_b];
+        Work& work = find_work(problem, row);
         for (std::size_t i = 0; i < std::size_t(row.point_count); ++i) {
             if (!strike.strikes[i]) continue;
             const PointRow& p = row.points[i];
             const Vec3 impulse = strike.normal_impulse[i] * row.normal + strike.friction_impulse[i];
             const Vec3 after = relative_velocity(a, p.r_a, b, p.r_b) + row.surface_velocity;
-            spent += dot(impulse, strike.before[i]);
-            made += dot(impulse, after - strike.before[i]);
+            work.spent += dot(impulse, strike.before[i]);
+            work.made += dot(impulse, after - strike.before[i]);
             const float closing = dot(row.normal, strike.before[i]);
-            due += 0.5f * strike.normal_impulse[i] * max(0, strike.target[i] + closing);
+            work.due += 0.5f * strike.normal_impulse[i] * max(0, strike.target[i] + closing);
         }
-        if (spent + 0.5f * made <= due + rounding_share * absolute(spent)) continue;
-        const float kept = made > 0 ? clamp(-2.0f * spent / made, 0, 1) : 0;
+    }
+    for (Strike& strike : strikes_) {
+        const ContactRows& row = rows[strike.row];
+        const Work& work = find_work(problem, row);
+        const float allowed = work.due + rounding_share * absolute(work.spent);
+        if (work.spent + 0.5f * work.made <= allowed) continue;
+        const float kept = work.made > 0 ? clamp(-2.0f * work.spent / work.made, 0, 1) : 0;
         for (std::size_t i = 0; i < std::size_t(row.point_count); ++i) {
             const PointRow& p = row.points[i];
             const Vec3 impulse = strike.normal_impulse[i] * row.normal + strike.friction_impulse[i];
-            apply_impulse(a, responses[row.body_a], p.r_a, b, responses[row.body_b], p.r_b,
+            apply_impulse(problem.motions[row.body_a], responses[row.body_a], p.r_a,
+                          problem.motions[row.body_b], responses[row.body_b], p.r_b,
                           (kept - 1.0f) * impulse);
             strike.normal_impulse[i] = kept * strike.normal_impulse[i];
             strike.friction_impulse[i] = kept * strike.friction_impulse[i];

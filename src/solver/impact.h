@@ -7,9 +7,11 @@
 // which makes the next round, so that a row of balls passes momentum on to the last one.
 //
 // Newton's rebound and Coulomb's friction together can make energy out of nothing where a spinning
-// corner strikes (Kane and Levinson 1985). What a strike's impulses P do to the bodies is work, sum
-// P.(v_before + v_after)/2; where that exceeds what the rebound alone would give, all of P is
-// shortened until the work is nothing.
+// corner strikes (Kane and Levinson 1985), and so can sweeps that have not settled, where a body is
+// struck against others. What the impulses P of strikes that share bodies do to these is work, sum
+// P.(v_before + v_after)/2; where that exceeds what the rebounds alone would give, all of these P
+// are shortened alike until the work is nothing. Strike by strike would not do: a blow shortened
+// leaves the blow that answered it too strong.
 //
 // The rebound's speed counts for where in the substep the surfaces meet. For a relative
 // acceleration a along n, semi-implicit Euler conserves Q = u^2/2 - a s + h a u/2 (u = n.v_rel, s
@@ -41,14 +43,27 @@ private:
         std::array<Vec3, 4> before = {};  // relative velocity of the surfaces when they struck
     };
 
+    // One entry a body; the impulses scaled by x do the work x spent + x^2 made / 2, to which the
+    // rebounds alone may add `due`. Kept with the body that stands for all of its group.
+    struct Work {
+        std::uint32_t group = 0;  // the body that stands for this one, or one nearer to it
+        float spent = 0;
+        float made = 0;
+        float due = 0;
+    };
+
     bool collect(const StepProblem& problem, std::span<const ContactRows> rows, float h);
     float solve_round(const StepProblem& problem, std::span<const Response> responses,
                       std::span<const ContactRows> rows, bool backward);
+    void group(const StepProblem& problem, std::span<const ContactRows> rows);
+    std::uint32_t find_group(std::uint32_t body);
+    Work& find_work(const StepProblem& problem, const ContactRows& row);
     void forbid_gain(const StepProblem& problem, std::span<const Response> responses,
                      std::span<const ContactRows> rows);
     void report(const StepProblem& problem, std::span<const ContactRows> rows) const;
 
     std::vector<Strike> strikes_;
+    std::vector<Work> works_;
 };
 
 // The u' above: the relative speed after a bounce of restitution e, from relative speed u < 0 at
