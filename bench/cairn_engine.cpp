@@ -1,4 +1,5 @@
-// Cairn, once with each solver, at its default budget.
+// Cairn, by its public headers alone. The plain variant is the library's default settings; the
+// others name a solver.
 
 #include "cairn/cairn.h"
 #include "engine.h"
@@ -7,41 +8,96 @@ namespace cairn::bench {
 
 namespace {
 
-Vec3 to_vec3(const std::array<double, 3>& v) {
+struct Variant {
+    const char* name;
+    Solver solver;
+};
+
+constexpr Variant variants[] = {
+    {"cairn", StepSettings{}.solver},
+    {"cairn:sequential-impulse", Solver::SequentialImpulse},
+    {"cairn:xpbd", Solver::Xpbd},
+};
+
+Vec3 to_vec3(const Vector& v) {
     return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
 }
 
-std::array<double, 3> to_array(const Vec3& v) {
+Quat to_quat(const Rotation& q) {
+    return {static_cast<float>(q[0]), static_cast<float>(q[1]), static_cast<float>(q[2]),
+            static_cast<float>(q[3])};
+}
+
+Vector to_vector(const Vec3& v) {
     return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
+}
+
+std::string say_count(int n, const char* what) {
+    return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
 }
 
 class CairnEngine final : public Engine {
 public:
-    CairnEngine(const BenchScene& scene, Solver solver) {
-        world_ = *World::create(
-            {.gravity = {0, static_cast<float>(-scene.gravity), 0}, .step = {.solver = solver}});
-        for (const BoxBody& box : scene.boxes) {
-            BodyDef def;
-            def.kind = box.density > 0 ? BodyKind::Dynamic : BodyKind::Static;
-            def.position = {box.position[0], box.position[1], box.position[2]};
-            ShapeDef shape{.geometry = Box{to_vec3(box.half_extents)}};
-            if (box.density > 0) shape.density = static_cast<float>(box.density);
+    explicit CairnEngine(const WorldSettings& settings) : world_(*World::create(settings)) {}
+
+    void add(const BenchScene& scene, const SceneBody& body) override {
+        BodyDef def{.kind = body.mobility == Mobility::Dynamic     ? BodyKind::Dynamic
+                            : body.mobility == Mobility::Kinematic ? BodyKind::Kinematic
+                                                                   : BodyKind::Static,
+                    .position = {body.position[0], body.position[1], body.position[2]},
+                    .rotation = to_quat(body.rotation),
+                    .angular_velocity = {body.angular_velocity[0], body.angular_velocity[1],
+                                         body.angular_velocity[2]}};
+        def.shapes.reserve(body.part_count);
+        for (std::uint32_t i = 0; i < body.part_count; ++i) {
+            const Part& part = scene.parts[body.first_part + i];
+            ShapeDef shape{.local_pose = {to_vec3(part.position), to_quat(part.rotation)},
+                           .density = body.density};
+            if (part.form == Form::Box) {
+                shape.geometry = Box{to_vec3(part.half_extents)};
+            } else {
+                shape.geometry = Sphere{static_cast<float>(part.radius)};
+            }
             shape.material.friction = static_cast<float>(scene.friction);
             def.shapes.push_back(shape);
-            bodies_.push_back(*world_.create_body(def));
         }
+        bodies_.push_back(*world_.create_body(def));
     }
 
     void step(double dt) override { (void)world_.step(dt); }
 
-    BoxMotion motion(std::size_t box) const override {
-        const BodyState state = world_.state(bodies_[box]);
+    BodyMotion motion(std::size_t body) const override {
+        const BodyState state = world_.state(bodies_[body]);
         const Quat& q = state.rotation;
         return {.position = {state.position.x, state.position.y, state.position.z},
                 .rotation = {static_cast<double>(q.x), static_cast<double>(q.y),
                              static_cast<double>(q.z), static_cast<double>(q.w)},
-                .linear_velocity = to_array(state.linear_velocity),
-                .angular_velocity = to_array(state.angular_velocity)};
+                .linear_velocity = to_vector(state.linear_velocity),
+                .angular_velocity = to_vector(state.angular_velocity)};
+    }
+
+    std::int64_t count_awake() const override {
+        std::int64_t count = 0;
+        for (const BodyId body : bodies_) {
+            const BodyState state = world_.state(body);
+            count += state.kind == BodyKind::Dynamic && !state.asleep ? 1 : 0;
+        }
+        return count;
+    }
+
+    std::string settings() const override {
+        const StepSettings& step = world_.settings().step;
+        const int substeps = step.substeps > 0 ? step.substeps : default_substeps(step.solver);
+        const int iterations =
+            step.iterations > 0 ? step.iterations : default_iterations(step.solver);
+        std::string name;
+        for (const Variant& variant : variants) {
+            const std::string_view full = variant.name;
+            const std::size_t colon = full.find(':');
+            if (variant.solver == step.solver && colon != full.npos) name = full.substr(colon + 1);
+        }
+        return name + ", " + say_count(substeps, "substep") + " of " +
+               say_count(iterations, "iteration");
     }
 
 private:
@@ -49,27 +105,22 @@ private:
     std::vector<BodyId> bodies_;
 };
 
-std::string count(int n, const char* what) {
-    return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
-}
-
-std::string budget(Solver solver) {
-    return count(default_substeps(solver), "substep") + " of " +
-           count(default_iterations(solver), "iteration");
-}
-
 }  // namespace
 
-std::vector<EngineEntry> cairn_engines() {
-    const std::string name = std::string("Cairn ") + version();
-    return {{name + " sequential-impulse", budget(Solver::SequentialImpulse),
-             [](const BenchScene& scene) -> std::unique_ptr<Engine> {
-                 return std::make_unique<CairnEngine>(scene, Solver::SequentialImpulse);
-             }},
-            {name + " xpbd", budget(Solver::Xpbd),
-             [](const BenchScene& scene) -> std::unique_ptr<Engine> {
-                 return std::make_unique<CairnEngine>(scene, Solver::Xpbd);
-             }}};
+EngineDescription describe_engine() {
+    EngineDescription description{.name = "Cairn", .version = version(), .variants = {}};
+    for (const Variant& variant : variants) description.variants.push_back(variant.name);
+    return description;
+}
+
+MadeEngine make_engine(const BenchScene& scene, const EngineRequest& request) {
+    if (request.threads > 1) return {.engine = {}, .problem = "this version steps on one thread"};
+    WorldSettings settings;
+    settings.gravity = {0, static_cast<float>(-scene.gravity), 0};
+    for (const Variant& variant : variants) {
+        if (variant.name == request.variant) settings.step.solver = variant.solver;
+    }
+    return {.engine = std::make_unique<CairnEngine>(settings), .problem = {}};
 }
 
 }  // namespace cairn::bench

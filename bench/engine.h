@@ -1,38 +1,26 @@
 #pragma once
-// What a benchmark asks of an engine, Cairn or a peer: to build a scene of boxes, to step it, and
-// to say where the boxes are. One adapter file an engine; none of them reads a clock.
+// What a benchmark asks of an engine, Cairn or a peer: to build a scene, to step it, and to say
+// where the bodies are. One adapter file an engine, one program an engine; no adapter reads a
+// clock.
 
-#include <array>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "scene.h"
+
 namespace cairn::bench {
 
-struct BoxBody {
-    std::array<double, 3> position = {};      // m
-    std::array<double, 3> half_extents = {};  // m
-    double density = 0;                       // kg/m^3; 0: static
+struct BodyMotion {
+    Vector position = {};  // of the body's origin, world
+    Rotation rotation = {0, 0, 0, 1};
+    Vector linear_velocity = {};
+    Vector angular_velocity = {};  // world frame
 };
 
-struct BenchScene {
-    std::string name;
-    std::vector<BoxBody> boxes;
-    double gravity = 9.81;  // m/s^2, downward along y
-    double friction = 0.6;  // of every pair
-    double dt = 1.0 / 60;   // s
-    std::size_t top = 0;    // the box whose drift is reported
-};
-
-struct BoxMotion {
-    std::array<double, 3> position = {};
-    std::array<double, 4> rotation = {0, 0, 0, 1};  // x, y, z, w
-    std::array<double, 3> linear_velocity = {};
-    std::array<double, 3> angular_velocity = {};  // world frame
-};
-
-// One world in one engine. Restitution is 0, nothing sleeps, one thread, the engine's own defaults
-// for all else.
+/// One world in one engine. Restitution 0, no damping; the engine's own defaults for all else.
+/// Bodies are numbered in the order in which they were added, as in the scene.
 class Engine {
 public:
     Engine() = default;
@@ -40,18 +28,38 @@ public:
     Engine& operator=(const Engine&) = delete;
     virtual ~Engine() = default;
 
+    /// Also between two steps, for what a scene brings in later.
+    virtual void add(const BenchScene& scene, const SceneBody& body) = 0;
+    /// After the bodies that are there from the start.
+    virtual void finish_building() {}
     virtual void step(double dt) = 0;
-    virtual BoxMotion motion(std::size_t box) const = 0;
+    virtual BodyMotion motion(std::size_t body) const = 0;
+    /// How many dynamic bodies are awake; negative where the engine does not say.
+    virtual std::int64_t count_awake() const { return -1; }
+    /// The budget it runs with, in words.
+    virtual std::string settings() const = 0;
 };
 
-struct EngineEntry {
-    std::string name;     // with its version
-    std::string setting;  // what stands for its default budget
-    std::unique_ptr<Engine> (*make)(const BenchScene& scene);
+struct EngineRequest {
+    std::string variant;  // one of the description's
+    int threads = 1;
 };
 
-std::vector<EngineEntry> cairn_engines();
-std::vector<EngineEntry> bullet_engines();  // only where Bullet was found
-std::vector<EngineEntry> ode_engines();     // only where ODE was found
+/// An engine, or why there is none.
+struct MadeEngine {
+    std::unique_ptr<Engine> engine;
+    std::string problem;
+};
+
+struct EngineDescription {
+    std::string name;  // as people write it
+    std::string version;
+    std::vector<std::string> variants;  // as the command line names them, the default first
+};
+
+// Each program has one adapter, and so one definition of these.
+EngineDescription describe_engine();
+/// A world with the scene's settings, without its bodies.
+MadeEngine make_engine(const BenchScene& scene, const EngineRequest& request);
 
 }  // namespace cairn::bench

@@ -1,7 +1,12 @@
-// ODE: its iterative solver, dWorldQuickStep, with its defaults, and friction that knows the normal
-// force (dContactApprox1; without it ODE's coefficient is a force).
+// ODE: its iterative solver, dWorldQuickStep, with its defaults.
+//
+// Departures: friction that knows the normal force (dContactApprox1; without it ODE's coefficient
+// is a force), and up to 8 contacts a pair, both as its manual advises. Pairs that cannot push each
+// other (fixed, or both asleep) are passed over, as its manual advises too.
 
 #include <ode/ode.h>
+
+#include <cmath>
 
 #include "engine.h"
 
@@ -9,7 +14,7 @@ namespace cairn::bench {
 
 namespace {
 
-std::array<double, 3> to_array(const dReal* v) { return {v[0], v[1], v[2]}; }
+Vector to_vector(const dReal* v) { return {v[0], v[1], v[2]}; }
 
 class OdeEngine final : public Engine {
 public:
@@ -19,19 +24,7 @@ public:
           contacts_(dJointGroupCreate(0)),
           friction_(scene.friction) {
         dWorldSetGravity(world_, 0, -scene.gravity, 0);
-        for (const BoxBody& box : scene.boxes) {
-            const std::array<double, 3>& h = box.half_extents;
-            const dGeomID geometry = dCreateBox(space_, 2 * h[0], 2 * h[1], 2 * h[2]);
-            geometries_.push_back(geometry);
-            if (box.density > 0) {
-                const dBodyID body = dBodyCreate(world_);
-                dMass mass;
-                dMassSetBox(&mass, box.density, 2 * h[0], 2 * h[1], 2 * h[2]);
-                dBodySetMass(body, &mass);
-                dGeomSetBody(geometry, body);
-            }
-            dGeomSetPosition(geometry, box.position[0], box.position[1], box.position[2]);
-        }
+        dWorldSetAutoDisableFlag(world_, scene.may_sleep ? 1 : 0);
     }
 
     ~OdeEngine() override {
@@ -40,29 +33,96 @@ public:
         dWorldDestroy(world_);
     }
 
+    void add(const BenchScene& scene, const SceneBody& body) override {
+        dBodyID made = nullptr;
+        if (body.mobility != Mobility::Static) {
+            made = dBodyCreate(world_);
+            place(body, made);
+        }
+        for (std::uint32_t i = 0; i < body.part_count; ++i) {
+            add_part(scene.parts[body.first_part + i], body, made);
+        }
+        bodies_.push_back(made);
+        statics_.push_back(made != nullptr ? Vector{} : body.position);
+    }
+
     void step(double dt) override {
         dSpaceCollide(space_, this, &OdeEngine::collide);
         dWorldQuickStep(world_, dt);
         dJointGroupEmpty(contacts_);
     }
 
-    BoxMotion motion(std::size_t box) const override {
-        const dGeomID geometry = geometries_[box];
-        dQuaternion q;  // w, x, y, z
-        dGeomGetQuaternion(geometry, q);
-        BoxMotion motion{.position = to_array(dGeomGetPosition(geometry)),
-                         .rotation = {q[1], q[2], q[3], q[0]}};
-        if (const dBodyID body = dGeomGetBody(geometry)) {
-            motion.linear_velocity = to_array(dBodyGetLinearVel(body));
-            motion.angular_velocity = to_array(dBodyGetAngularVel(body));
+    BodyMotion motion(std::size_t index) const override {
+        const dBodyID body = bodies_[index];
+        if (body == nullptr) return {.position = statics_[index]};
+        const dReal* const q = dBodyGetQuaternion(body);  // w, x, y, z
+        return {.position = to_vector(dBodyGetPosition(body)),
+                .rotation = {q[1], q[2], q[3], q[0]},
+                .linear_velocity = to_vector(dBodyGetLinearVel(body)),
+                .angular_velocity = to_vector(dBodyGetAngularVel(body))};
+    }
+
+    std::int64_t count_awake() const override {
+        std::int64_t count = 0;
+        for (const dBodyID body : bodies_) {
+            const bool moves = body != nullptr && dBodyIsKinematic(body) == 0;
+            count += moves && dBodyIsEnabled(body) != 0 ? 1 : 0;
         }
-        return motion;
+        return count;
+    }
+
+    std::string settings() const override {
+        return "quickstep, " + std::to_string(dWorldGetQuickStepNumIterations(world_)) +
+               " iterations, binary64";
     }
 
 private:
+    static void place(const SceneBody& body, dBodyID made) {
+        const Rotation& q = body.rotation;
+        const dQuaternion rotation = {q[3], q[0], q[1], q[2]};
+        dBodySetPosition(made, body.position[0], body.position[1], body.position[2]);
+        dBodySetQuaternion(made, rotation);
+        if (body.mobility == Mobility::Kinematic) {
+            const auto& w = body.angular_velocity;
+            dBodySetKinematic(made);
+            dBodySetAngularVel(made, w[0], w[1], w[2]);
+            dBodySetAutoDisableFlag(made, 0);
+        }
+    }
+
+    void add_part(const Part& part, const SceneBody& body, dBodyID made) {
+        const Vector& h = part.half_extents;
+        const bool is_box = part.form == Form::Box;
+        const dGeomID geometry = is_box ? dCreateBox(space_, 2 * h[0], 2 * h[1], 2 * h[2])
+                                        : dCreateSphere(space_, part.radius);
+        if (made == nullptr) {
+            dGeomSetPosition(geometry, body.position[0], body.position[1], body.position[2]);
+            return;
+        }
+        dGeomSetBody(geometry, made);
+        if (body.mobility == Mobility::Dynamic) {
+            const auto density = static_cast<dReal>(body.density);
+            dMass mass;
+            if (is_box) dMassSetBox(&mass, density, 2 * h[0], 2 * h[1], 2 * h[2]);
+            if (!is_box) dMassSetSphere(&mass, density, part.radius);
+            dBodySetMass(made, &mass);
+        } else if (part.position != Vector{} || part.rotation != Rotation{0, 0, 0, 1}) {
+            const Rotation& q = part.rotation;
+            const dQuaternion rotation = {q[3], q[0], q[1], q[2]};
+            dGeomSetOffsetPosition(geometry, part.position[0], part.position[1], part.position[2]);
+            dGeomSetOffsetQuaternion(geometry, rotation);
+        }
+    }
+
     static void collide(void* engine, dGeomID a, dGeomID b) {
         constexpr int most_contacts = 8;
         auto* self = static_cast<OdeEngine*>(engine);
+        const dBodyID body_a = dGeomGetBody(a);
+        const dBodyID body_b = dGeomGetBody(b);
+        const auto can_move = [](dBodyID body) {
+            return body != nullptr && dBodyIsKinematic(body) == 0 && dBodyIsEnabled(body) != 0;
+        };
+        if (body_a == body_b || (!can_move(body_a) && !can_move(body_b))) return;
         dContact contacts[most_contacts];
         const int count = dCollide(a, b, most_contacts, &contacts[0].geom, sizeof(dContact));
         for (int i = 0; i < count; ++i) {
@@ -70,7 +130,7 @@ private:
             contacts[i].surface.mode = dContactApprox1;
             contacts[i].surface.mu = self->friction_;
             const dJointID joint = dJointCreateContact(self->world_, self->contacts_, &contacts[i]);
-            dJointAttach(joint, dGeomGetBody(a), dGeomGetBody(b));
+            dJointAttach(joint, body_a, body_b);
         }
     }
 
@@ -78,17 +138,22 @@ private:
     dSpaceID space_;
     dJointGroupID contacts_;
     double friction_;
-    std::vector<dGeomID> geometries_;
+    std::vector<dBodyID> bodies_;
+    std::vector<Vector> statics_;
 };
 
 }  // namespace
 
-std::vector<EngineEntry> ode_engines() {
+EngineDescription describe_engine() {
+    return {.name = "ODE", .version = dODE_VERSION, .variants = {"ode"}};
+}
+
+MadeEngine make_engine(const BenchScene& scene, const EngineRequest& request) {
+    if (request.threads > 1) {
+        return {.engine = {}, .problem = "its step runs on one thread unless given a pool"};
+    }
     dInitODE2(0);
-    return {{"ODE " dODE_VERSION " quickstep", "20 iterations, binary64",
-             [](const BenchScene& scene) -> std::unique_ptr<Engine> {
-                 return std::make_unique<OdeEngine>(scene);
-             }}};
+    return {.engine = std::make_unique<OdeEngine>(scene), .problem = {}};
 }
 
 }  // namespace cairn::bench

@@ -1,4 +1,4 @@
-// The command line: `cairn run`, `scenes`, `export`, `check`.
+// The command line: `cairn run`, `scenes`, `export`, `check`, `bench`.
 //
 // Exit status: 0 done; 1 the run went wrong; 2 bad usage, a bad scene or something not supported,
 // with one message on standard error.
@@ -9,6 +9,7 @@
 #include <exception>
 #include <iostream>
 
+#include "cairn_bench.h"
 #include "cairn_run.h"
 #include "cairn_terminal.h"
 #include "scene/builtin.h"
@@ -88,6 +89,18 @@ void add_run_options(CLI::App& app, tool::RunCommand& run) {
     app.add_flag("--quiet", run.quiet, "no progress bar, no summary");
 }
 
+void add_bench_options(CLI::App& app, tool::BenchCommand& bench) {
+    app.add_option("SCENE", bench.scenes, "scenes of the benchmark; none: all of them");
+    app.add_option("--threads", bench.threads, "counts with commas: 1,2");
+    app.add_option("--peers", bench.peers, "all, none, or names with commas: jolt,cairn:xpbd");
+    app.add_option("--repeats", bench.repeats, "how many rounds, each engine once a round");
+    app.add_option("--steps", bench.steps, "how many steps instead of each scene's own");
+    app.add_option("--time-limit", bench.time_limit, "seconds after which a run is ended");
+    app.add_flag("--memory", bench.memory, "measure bytes a body too");
+    app.add_option("--json", bench.json, "write the figures to this file, - for standard output");
+    app.add_option("--html", bench.html, "write a page with bars, FILE.html");
+}
+
 int run_command_line(int argc, char** argv) {
     CLI::App app{"Cairn, a 3D rigid-body physics engine that you can see into"};
     app.set_version_flag("--version", version());
@@ -113,8 +126,9 @@ int run_command_line(int argc, char** argv) {
     }
     CLI::App* report_app =
         app.add_subcommand("report", "not yet part of this version")->allow_extras();
-    CLI::App* bench_app =
-        app.add_subcommand("bench", "not yet part of this version")->allow_extras();
+    tool::BenchCommand bench;
+    CLI::App* bench_app = app.add_subcommand("bench", "time Cairn beside the peers that are there");
+    add_bench_options(*bench_app, bench);
 
     try {
         app.parse(argc, argv);
@@ -136,12 +150,7 @@ int run_command_line(int argc, char** argv) {
     if (*export_app) return export_scene(source, settings);
     if (*check_app) return check_scene(source, settings);
     if (*report_app) return fail(bad_usage, "report: not yet part of this version");
-    if (*bench_app) {
-        return fail(bad_usage,
-                    "bench: not yet part of this version; the benchmark is a program of its own, "
-                    "built with "
-                    "CAIRN_BENCH=ON");
-    }
+    if (*bench_app) return tool::bench(bench);
     return bad_usage;
 }
 

@@ -1,0 +1,31 @@
+#pragma once
+// How deep two convex parts overlap: the shortest way out, which for boxes is one of the fifteen
+// separating axes, and for anything with a sphere a closed form. binary64 throughout.
+
+#include "scene.h"
+
+namespace cairn::bench {
+
+/// A part in the world: its axes are the columns of its rotation.
+struct PlacedPart {
+    Form form = Form::Box;
+    Vector center = {};
+    std::array<Vector, 3> axes = {};
+    Vector half_extents = {};
+    double radius = 0;
+};
+
+PlacedPart place_part(const Part& part, const Vector& position, const Rotation& rotation);
+
+/// m; 0 where they do not overlap.
+double measure_overlap(const PlacedPart& a, const PlacedPart& b);
+
+/// Half the side lengths of the part's axis-parallel bounding box.
+Vector bound_part(const PlacedPart& part);
+
+double dot(const Vector& a, const Vector& b);
+Vector cross(const Vector& a, const Vector& b);
+/// v turned by q.
+Vector turn(const Rotation& q, const Vector& v);
+
+}  // namespace cairn::bench
