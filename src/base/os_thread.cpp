@@ -81,7 +81,7 @@ void yield_to_os() { sched_yield(); }
 bool OsThread::start(Entry, void*, int) { return false; }
 void OsThread::join() {}
 Doorbell::~Doorbell() = default;
-void Doorbell::ring() { ++rings_; }
+void Doorbell::ring() {}
 void Doorbell::lock() {}
 void Doorbell::unlock() {}
 void Doorbell::wait_for_ring() {}

@@ -39,10 +39,10 @@ private:
 #if CAIRN_THREADS
     static void* enter(void* self);
     pthread_t thread_ = {};
-#endif
     Entry entry_ = nullptr;
     void* context_ = nullptr;
     int index_ = 0;
+#endif
 };
 
 // Where idle threads sleep. A ring wakes all who sleep and is not remembered for those who come
@@ -70,8 +70,8 @@ private:
 #if CAIRN_THREADS
     pthread_mutex_t mutex_ = PTHREAD_MUTEX_INITIALIZER;
     pthread_cond_t rung_ = PTHREAD_COND_INITIALIZER;
-#endif
     unsigned rings_ = 0;
+#endif
 };
 
 // Tells the processor that this is a waiting loop: some tens of nanoseconds.

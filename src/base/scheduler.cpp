@@ -172,7 +172,7 @@ Team::~Team() {
 void Team::run_stages(std::span<const Stage> stages) {
     assert(!running_);
     const auto has_several_blocks = [](const Stage& s) { return s.count > s.block_size; };
-    if (worker_count_ == 1 || !std::ranges::any_of(stages, has_several_blocks)) {
+    if (worker_count_ == 1 || !std::any_of(stages.begin(), stages.end(), has_several_blocks)) {
         for (const Stage& stage : stages) run_alone(stage);
         return;
     }
