@@ -45,7 +45,7 @@ esac
 failed=0
 find src tools bench -name '*.h' -o -name '*.cpp' | sort | xargs awk -v list="$list" '
     BEGIN {
-        plain = " types ids settings shape body report result threads version "
+        plain = " types ids settings shape body report result threads trace version "
         while ((getline line < list) > 0) {
             if (line ~ /^#/ || split(line, column, "|") != 3) continue
             gsub(/ /, "", column[1])
