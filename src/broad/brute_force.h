@@ -2,26 +2,12 @@
 // The reference broad phase: every box against every other. Slow, obviously right, and kept for
 // ever for the others to be tested against.
 
-#include <cstdint>
 #include <span>
 #include <vector>
 
-#include "math/aabb.h"
+#include "broad/proxy.h"
 
 namespace cairn {
-
-// A box and whose it is. Two proxies that both stand still make no pair.
-struct Proxy {
-    Aabb box;
-    std::uint32_t id = 0;
-    bool moves = false;
-};
-
-struct Pair {
-    std::uint32_t a = 0;  // the smaller id
-    std::uint32_t b = 0;
-    friend constexpr auto operator<=>(const Pair&, const Pair&) = default;
-};
 
 class BruteForce {
 public:
