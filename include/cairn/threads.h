@@ -1,8 +1,8 @@
 #pragma once
 // Which threads may work on a step: none but the caller's, Cairn's own, or those of the host.
 //
-// The state after a step is the same to the bit whatever is said here; only the time differs. Small
-// scenes stay on the caller's thread by themselves.
+// The state after a step is the same to the bit whatever is said here; only the time differs. What
+// is too small to share stays on the caller's thread.
 
 namespace cairn {
 
@@ -18,11 +18,12 @@ using Job = void (*)(void* job_context, int index);
 /// - On any threads, the calling one among them or not, in any order. Jobs that run at the same
 ///   time share the work; if the host runs them one after another, the first does all of it and the
 ///   rest return at once. No job waits for one that has not begun.
-/// - A job takes as long as one stage of a step, well under a millisecond as a rule; a step makes
-///   a handful of such calls. A job never calls `run` in turn.
+/// - A job lasts as long as one part of a step, milliseconds in a large scene; a step makes a
+///   handful of calls. While it waits for the others a job spins, then yields: it does not block.
+///   A job never calls `run` in turn.
 /// - It cannot fail: what the host's jobs have left undone when it returns, the caller does.
-/// - It must throw nothing. Jobs need no more than 64 KiB of stack, and put the processor's
-///   rounding and denormal modes back as they found them.
+/// - It must throw nothing. Jobs put the processor's rounding and denormal modes back as they found
+///   them.
 using RunJobs = void (*)(void* host_context, int job_count, Job job, void* job_context);
 
 /// How many threads, and whose.
