@@ -13,6 +13,8 @@ constexpr SceneEntry entries[] = {
     {"pyramid40", "820 unit cubes, base 40, pitch 1.05", 600, make_pyramid40},
     {"large-pyramid", "5050 cubes, base 100, side by side", 200, make_large_pyramid},
     {"many-pyramids", "14 x 14 pyramids of 55 cubes", 100, make_many_pyramids},
+    {"pyramids-30k", "24 x 24 pyramids of 55 cubes, for the cost a body", 60, make_pyramids_30k},
+    {"pyramids-100k", "43 x 43 pyramids of 55 cubes, for the cost a body", 60, make_pyramids_100k},
     {"wide-pyramid", "1240 cubes in 15 square layers", 300, make_wide_pyramid},
     {"grid1000", "100 columns of 10 cubes", 600, make_grid1000},
     {"tower", "50 unit cubes, for a minute", 3600, make_tower},

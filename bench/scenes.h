@@ -26,6 +26,8 @@ BenchScene make_pyramid20();
 BenchScene make_pyramid40();
 BenchScene make_large_pyramid();
 BenchScene make_many_pyramids();
+BenchScene make_pyramids_30k();
+BenchScene make_pyramids_100k();
 BenchScene make_wide_pyramid();
 BenchScene make_grid1000();
 BenchScene make_tower();

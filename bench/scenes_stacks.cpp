@@ -17,6 +17,19 @@ BenchScene make_small_scene() {
     return scene;
 }
 
+// A square of `rows` by `rows` pyramids of 55 cubes.
+BenchScene make_pyramids(int rows) {
+    constexpr double spacing = 11;
+    BenchScene scene;
+    add_ground(scene, 0.5 * spacing * (rows + 1));
+    for (int i = 0; i < rows * rows; ++i) {
+        const double x = spacing * (i % rows - 0.5 * (rows - 1));
+        const double z = spacing * (i / rows - 0.5 * (rows - 1));
+        expect_standing(scene, add_pyramid(scene, 10, 0.5, 1, 100, {x, 0, z}));
+    }
+    return scene;
+}
+
 }  // namespace
 
 BenchScene make_pyramid20() {
@@ -40,18 +53,11 @@ BenchScene make_large_pyramid() {
     return scene;
 }
 
-BenchScene make_many_pyramids() {
-    constexpr int rows = 14;
-    constexpr double spacing = 11;
-    BenchScene scene;
-    add_ground(scene, 100);
-    for (int i = 0; i < rows * rows; ++i) {
-        const double x = spacing * (i % rows - 0.5 * (rows - 1));
-        const double z = spacing * (i / rows - 0.5 * (rows - 1));
-        expect_standing(scene, add_pyramid(scene, 10, 0.5, 1, 100, {x, 0, z}));
-    }
-    return scene;
-}
+BenchScene make_many_pyramids() { return make_pyramids(14); }
+
+BenchScene make_pyramids_30k() { return make_pyramids(24); }
+
+BenchScene make_pyramids_100k() { return make_pyramids(43); }
 
 BenchScene make_wide_pyramid() {
     constexpr int layers = 15;

@@ -50,12 +50,12 @@ th { color: var(--soft); font-weight: 500; text-align: right; vertical-align: bo
 td { text-align: right; white-space: nowrap; padding: 6px 0 6px 16px;
   border-top: 1px solid var(--line); }
 th:first-child, td:first-child { text-align: left; padding-left: 0; }
-tr.first td { font-weight: 650; }
+tr.first td { font-weight: 650; } td.best { color: var(--good); }
 .legend { display: flex; flex-wrap: wrap; gap: 4px 20px; font-size: 13.5px; margin-top: 10px; }
 .legend svg { display: inline-block; width: 11px; height: 11px; margin: 0 7px 0 0; }
 ul { padding-left: 1.1em; margin: 8px 0; font-size: 14.5px; }
 @media (max-width: 640px) { main { padding: 32px 14px; } h1 { font-size: 30px; }
-  .card { padding: 18px 16px; } }
+  .card { padding: 18px 16px; } .plot { min-width: 640px; } }
 )css";
 
 constexpr double width = 960;
@@ -115,7 +115,8 @@ std::string draw_bars(const BenchReport& report, const BenchTable& table) {
     const double scale = (width - label_width - 170) / most;
     const double bottom = row_height * static_cast<double>(table.rows.size());
     std::string svg =
-        fmt::format(R"(<svg viewBox="0 0 {} {}" role="img" aria-label="Milliseconds a step">)",
+        fmt::format(R"(<div class="scroll"><svg class="plot" viewBox="0 0 {} {}" role="img" )"
+                    R"(aria-label="Milliseconds a step">)",
                     width, bottom + 26);
     const double grid = choose_grid(most);
     for (int i = 0; i * grid <= most * 1.001; ++i) {
@@ -153,9 +154,10 @@ std::string draw_bars(const BenchReport& report, const BenchTable& table) {
                            label_width + time->most * scale + 10, middle + 4.5,
                            i == 0 ? R"( class="first")" : "", say_ms(time->median), beside);
     }
-    return svg + "</svg>";
+    return svg + "</svg></div>";
 }
 
+// Of the engines that ran; the best of a column, where less is better, stands out.
 std::string draw_figures(const BenchReport& report, const BenchTable& table) {
     const std::vector<BenchColumn> columns = make_columns(table);
     std::string html = R"(<div class="scroll"><table><tr><th></th>)";
@@ -163,10 +165,12 @@ std::string draw_figures(const BenchReport& report, const BenchTable& table) {
         html += "<th>" + escape(column.title) + "</th>";
     }
     for (std::size_t i = 0; i < table.rows.size(); ++i) {
+        if (!spread_of_time(table, table.rows[i])) continue;
         html += fmt::format("</tr><tr{}><td>{}</td>", i == 0 ? R"( class="first")" : "",
                             escape(report.engines[table.rows[i].engine].label));
         for (const BenchColumn& column : columns) {
-            html += "<td>" + escape(column.cells[i]) + "</td>";
+            html += column.best == i ? R"(<td class="best">)" : "<td>";
+            html += escape(column.cells[i]) + "</td>";
         }
     }
     return html + "</tr></table></div>";
@@ -192,20 +196,24 @@ std::string draw_table(const BenchReport& report, const BenchTable& table) {
 std::string draw_overview(const BenchReport& report) {
     double least = 0.5;
     double most = 2;
+    std::vector<const BenchTable*> tables;  // those with something to compare
     for (const BenchTable& table : report.tables) {
         for (const BenchRow& row : table.rows) {
             const auto ratio = ratio_to(table, row);
             if (!ratio) continue;
             least = std::min(least, 0.9 / *ratio);
             most = std::max(most, 1.1 / *ratio);
+            if (tables.empty() || tables.back() != &table) tables.push_back(&table);
         }
     }
+    if (tables.empty()) return {};
     const double scale = (width - label_width - 40) / std::log(most / least);
     const auto x_of = [&](double factor) { return label_width + std::log(factor / least) * scale; };
-    const double bottom = 26 * static_cast<double>(report.tables.size());
+    const double bottom = 26 * static_cast<double>(tables.size());
     std::string svg =
-        fmt::format(R"(<svg viewBox="0 0 {} {}" role="img" aria-label="Time over Cairn's">)", width,
-                    bottom + 26);
+        fmt::format(R"(<div class="scroll"><svg class="plot" viewBox="0 0 {} {}" role="img" )"
+                    R"(aria-label="Time over Cairn's">)",
+                    width, bottom + 26);
     for (const double factor :
          {0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0}) {
         if (factor < least || factor > most) continue;
@@ -214,8 +222,8 @@ std::string draw_overview(const BenchReport& report) {
             R"(<text class="soft" x="{0:.1f}" y="{2}" text-anchor="middle">{4:g}&#215;</text>)",
             x_of(factor), bottom + 4, bottom + 20, factor == 1.0 ? "one" : "grid", factor);
     }
-    for (std::size_t i = 0; i < report.tables.size(); ++i) {
-        const BenchTable& table = report.tables[i];
+    for (std::size_t i = 0; i < tables.size(); ++i) {
+        const BenchTable& table = *tables[i];
         const double y = 26 * (static_cast<double>(i) + 0.5);
         svg += fmt::format(R"(<text class="name" x="{}" y="{:.1f}">{}{}</text>)", label_width - 14,
                            y + 4.5, escape(table.scene),
@@ -230,7 +238,7 @@ std::string draw_overview(const BenchReport& report) {
                 color_of(engine), x_of(1 / *ratio), y, escape(engine.label), say_times(1 / *ratio));
         }
     }
-    svg += R"(</svg><div class="legend">)";
+    svg += R"(</svg></div><div class="legend">)";
     for (std::size_t i = 1; i < report.engines.size(); ++i) {
         svg += fmt::format(
             R"(<span><svg viewBox="0 0 12 12"><circle class="{}" cx="6" cy="6" r="6"/></svg>{}</span>)",
@@ -277,7 +285,7 @@ std::string make_page(const BenchReport& report) {
         escape(report.cairn_version), report.repeats, report.repeats == 1 ? "" : "s",
         escape(report.processor), report.cores, escape(report.system), escape(report.compiler),
         report.date);
-    if (report.engines.size() > 1 && !report.tables.empty()) html += draw_overview(report);
+    html += draw_overview(report);
     for (const BenchTable& table : report.tables) html += draw_table(report, table);
     html += draw_memory(report);
     html +=

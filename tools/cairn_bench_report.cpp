@@ -25,10 +25,14 @@ std::string say(double x) {
                                         : 3);
 }
 
-std::string say_mm(std::optional<double> metres) {
-    if (!metres) return {};
-    return *metres >= 1 ? say(*metres) + " m" : say(1000 * *metres) + " mm";
+std::string say_length(double metres) {
+    const double size = std::abs(metres);
+    if (size == 0) return "0";
+    if (size >= 0.9995) return say(metres) + " m";
+    return size >= 0.9995e-6 ? say(1000 * metres) + " mm" : say(1e9 * metres) + " nm";
 }
+
+std::string say_whole(double x) { return fmt::format("{:.0f}", x); }
 
 const char* say_clock(const BenchTable& table) { return table.threads == 1 ? "processor" : "wall"; }
 
@@ -84,45 +88,84 @@ std::string describe_problem(const BenchRow& row) {
     return fmt::format("{} of {} runs: {}", count, row.runs.size(), first);
 }
 
+namespace {
+
+enum class Better { Less, Neither };
+
+using Figures = std::vector<std::optional<double>>;
+
+std::optional<std::size_t> find_best(const Figures& figures) {
+    std::optional<std::size_t> best;
+    for (std::size_t i = 0; i < figures.size(); ++i) {
+        if (figures[i] && (!best || *figures[i] < *figures[*best])) best = i;
+    }
+    if (!best || std::count(figures.begin(), figures.end(), figures[*best]) > 1) return {};
+    const auto there = std::count_if(figures.begin(), figures.end(),
+                                     [](const auto& figure) { return figure.has_value(); });
+    return there > 1 ? best : std::nullopt;
+}
+
+BenchColumn make_column(const char* title, const Figures& figures, Better better,
+                        std::string (*tell)(double)) {
+    BenchColumn column{.title = title, .cells = {}, .best = {}};
+    for (const std::optional<double>& figure : figures) {
+        column.cells.push_back(figure ? tell(*figure) : std::string());
+    }
+    if (better == Better::Less) column.best = find_best(figures);
+    return column;
+}
+
+Figures list_fields(const BenchTable& table, const char* name) {
+    Figures figures;
+    for (const BenchRow& row : table.rows) figures.push_back(find_field(row, name));
+    return figures;
+}
+
+// MB beyond the empty world.
+Figures list_peaks(const BenchTable& table) {
+    Figures figures = list_fields(table, "peak_kib");
+    const Figures empty = list_fields(table, "empty_kib");
+    for (std::size_t i = 0; i < figures.size(); ++i) {
+        if (figures[i] && empty[i]) figures[i] = std::max(0.0, *figures[i] - *empty[i]) * 1024e-6;
+    }
+    return figures;
+}
+
+// Microseconds a step, over the bodies that can move.
+Figures list_times_a_body(const BenchTable& table) {
+    Figures figures = list_fields(table, "moving");
+    for (std::size_t i = 0; i < figures.size(); ++i) {
+        const std::optional<BenchSpread> time = spread_of_time(table, table.rows[i]);
+        if (figures[i] && time) figures[i] = 1000 * time->median / *figures[i];
+    }
+    return figures;
+}
+
+}  // namespace
+
 std::vector<BenchColumn> make_columns(const BenchTable& table) {
     std::vector<BenchColumn> columns;
-    const auto add = [&](const char* title, auto tell) {
-        BenchColumn column{title, {}};
-        for (const BenchRow& row : table.rows) column.cells.push_back(tell(row));
-        const auto is_said = [](const std::string& cell) { return !cell.empty(); };
-        if (std::any_of(column.cells.begin(), column.cells.end(), is_said)) {
-            columns.push_back(std::move(column));
-        }
+    const auto add = [&](const char* title, const Figures& figures, Better better,
+                         std::string (*tell)(double)) {
+        const auto is_there = [](const auto& figure) { return figure.has_value(); };
+        if (!std::any_of(figures.begin(), figures.end(), is_there)) return;
+        columns.push_back(make_column(title, figures, better, tell));
     };
-    const auto add_length = [&](const char* title, const char* field) {
-        add(title, [&](const BenchRow& row) { return say_mm(find_field(row, field)); });
+    const auto add_field = [&](const char* title, const char* name, Better better,
+                               std::string (*tell)(double)) {
+        add(title, list_fields(table, name), better, tell);
     };
-    const auto add_number = [&](const char* title, const char* field, double scale) {
-        add(title, [&](const BenchRow& row) -> std::string {
-            const std::optional<double> value = find_field(row, field);
-            return value ? say(scale * *value) : std::string();
-        });
-    };
-    const auto add_count = [&](const char* title, const char* field) {
-        add(title, [&](const BenchRow& row) -> std::string {
-            const std::optional<double> value = find_field(row, field);
-            return value ? fmt::format("{:.0f}", *value) : std::string();
-        });
-    };
-    add_number("first step, ms", "first_ms", 1);
-    add_length("mean penetration", "mean_penetration");
-    add_length("deepest", "deepest_penetration");
-    add_length("drift", "drift");
-    add_length("sag before 3 s", "sag_before_3s");
-    add_length("sag from 3 s on", "sag_from_3s");
-    add_number("kinetic energy, J", "kinetic_energy", 1);
-    add_count("lost", "lost");
-    add_count("awake", "awake");
-    add("peak, MB", [](const BenchRow& row) -> std::string {
-        const std::optional<double> peak = find_field(row, "peak_kib");
-        const std::optional<double> empty = find_field(row, "empty_kib");
-        return peak && empty ? say(std::max(0.0, *peak - *empty) * 1024 / 1e6) : std::string();
-    });
+    add("\u00b5s a body", list_times_a_body(table), Better::Neither, say);
+    add_field("first step, ms", "first_ms", Better::Less, say);
+    add_field("mean penetration", "mean_penetration", Better::Less, say_length);
+    add_field("deepest", "deepest_penetration", Better::Less, say_length);
+    add_field("drift", "drift", Better::Less, say_length);
+    add_field("sag before 3 s", "sag_before_3s", Better::Less, say_length);
+    add_field("sag from 3 s on", "sag_from_3s", Better::Less, say_length);
+    add_field("kinetic energy, J", "kinetic_energy", Better::Neither, say);
+    add_field("lost", "lost", Better::Less, say_whole);
+    add_field("awake", "awake", Better::Neither, say_whole);
+    add("peak, MB", list_peaks(table), Better::Less, say);
     return columns;
 }
 

@@ -74,6 +74,8 @@ std::string describe_problem(const BenchRow& row);
 struct BenchColumn {
     std::string title;
     std::vector<std::string> cells;
+    /// The row with the least figure, where less is better and no other row has as little.
+    std::optional<std::size_t> best;
 };
 /// Without the columns in which no row has a figure.
 std::vector<BenchColumn> make_columns(const BenchTable& table);
