@@ -16,11 +16,11 @@ class FunctionRef;
 template <class Return, class... Arguments>
 class FunctionRef<Return(Arguments...)> {
 public:
-    template <class Callable>
-    requires(!std::is_same_v<std::remove_cvref_t<Callable>, FunctionRef> &&
-             std::is_object_v<std::remove_reference_t<Callable>> &&
-             std::is_invocable_r_v<Return, Callable&, Arguments...>)
-        FunctionRef(Callable&& callable)
+    // Not for itself: those are copies.
+    template <class Callable, class = std::enable_if_t<
+                                  !std::is_same_v<std::remove_cvref_t<Callable>, FunctionRef> &&
+                                  std::is_invocable_r_v<Return, Callable&, Arguments...>>>
+    FunctionRef(Callable&& callable)
         : object_(const_cast<void*>(static_cast<const void*>(std::addressof(callable)))),
           call_([](void* object, Arguments... arguments) -> Return {
               using Target = std::remove_reference_t<Callable>;
