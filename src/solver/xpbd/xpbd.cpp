@@ -60,9 +60,13 @@ void Xpbd::advance(const StepProblem& problem) {
 void Xpbd::recall(const StepProblem& problem, float h) {
     held_.assign(rows_.size(), {});
     for (std::size_t k = 0; k < rows_.size(); ++k) {
-        const Contact& contact = problem.contacts[rows_[k].contact];
+        Contact& contact = problem.contacts[rows_[k].contact];
         Held& held = held_[k];
         for (std::size_t i = 0; i < std::size_t(rows_[k].point_count); ++i) {
+            // A corner that swung in while another point was the contact: no motion that the
+            // corrections have seen made this overlap, so no more may they undo it at once.
+            if (contact.points[i].normal_force == 0)
+                contact.first_overlap = max(contact.first_overlap, -contact.points[i].separation);
             held.friction[i] = (h * h) * contact.points[i].friction_force;
             held.load += (h * h) * contact.points[i].normal_force;
         }
