@@ -9,6 +9,7 @@
 // treated alike. One world lives for 4000 steps; a seed gives the same worlds on every machine, so
 // a failure, which prints seed, world and step, can be had again with `--seed S --world W`.
 
+#include <algorithm>
 #include <chrono>
 #include <cinttypes>
 #include <cmath>
@@ -113,12 +114,18 @@ World make_pit(Dice& dice) {
     return world;
 }
 
-// By an impulse, a torque, a force or a new velocity, as `choice` says.
+// By an impulse, a torque, a force or a new velocity, as `choice` says. At most 20 m/s and about
+// 30 rad/s along an axis and at once: a light body that turns several times in a step, or crosses
+// the pit, is nowhere that a wall could find it.
 void shove(World& world, BodyId body, int choice, Dice& dice) {
+    const MassProperties resists = world.mass_properties(body);
+    const SymmetricMat3& inertia = resists.inertia;
+    const float least = std::min(inertia.xx, std::min(inertia.yy, inertia.zz));
+    const auto a_step = static_cast<float>(1 / dt);
     switch (choice) {
-        case 2: (void)world.apply_impulse(body, dice.vector(200)); break;
-        case 3: (void)world.apply_torque(body, dice.vector(500)); break;
-        case 4: (void)world.apply_force(body, dice.vector(5000)); break;
+        case 2: (void)world.apply_impulse(body, dice.vector(20 * resists.mass)); break;
+        case 3: (void)world.apply_torque(body, dice.vector(30 * least * a_step)); break;
+        case 4: (void)world.apply_force(body, dice.vector(20 * resists.mass * a_step)); break;
         default: (void)world.set_linear_velocity(body, dice.vector(5)); break;
     }
 }
