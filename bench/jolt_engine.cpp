@@ -32,6 +32,15 @@ constexpr JPH::ObjectLayer still_layer = 0;
 constexpr JPH::ObjectLayer moving_layer = 1;
 constexpr JPH::uint layer_count = 2;
 
+// The installation's own choice, which its headers pass on.
+#if defined(JPH_USE_AVX512)
+constexpr const char* instructions = "AVX-512";
+#elif defined(JPH_USE_AVX2)
+constexpr const char* instructions = "AVX2";
+#else
+constexpr const char* instructions = "SSE";
+#endif
+
 JPH::Vec3 to_jolt(const Vector& v) {
     return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
 }
@@ -155,8 +164,8 @@ public:
     std::string settings() const override {
         const JPH::PhysicsSettings& s = system_.GetPhysicsSettings();
         return std::to_string(s.mNumVelocitySteps) + " velocity and " +
-               std::to_string(s.mNumPositionSteps) + " position iterations, slop 2 cm" +
-               (has_failed_ ? ", a buffer overflowed" : "");
+               std::to_string(s.mNumPositionSteps) + " position iterations, slop 2 cm, built for " +
+               instructions + (has_failed_ ? ", a buffer overflowed" : "");
     }
 
 private:

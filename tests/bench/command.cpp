@@ -173,7 +173,7 @@ TEST_CASE("a peer that crashes, hangs or talks nonsense is a row that says so") 
     CHECK(problem_of_false_jolt("kill -SEGV $$").find("ended by signal 11") == 0);
     CHECK(problem_of_false_jolt("echo out of luck >&2; exit 1") == "out of luck");
     CHECK(problem_of_false_jolt("echo hello") == "ended without its line of figures");
-    CHECK(problem_of_false_jolt("sleep 60", "--time-limit 1") == "not done after 1 s");
+    CHECK(problem_of_false_jolt("exec sleep 60", "--time-limit 1") == "not done after 1 s");
 }
 
 TEST_CASE("a library's solvers can be compared with each other") {
