@@ -209,7 +209,6 @@ TEST_CASE("bad usage is refused with status 2 and one line") {
     check_refused("check - --set a=1", "--set", "{\"cairn\": 1}");
     check_refused("report", "not yet part of this version");
     check_refused("report --solver xpbd", "not yet part of this version");
-    check_refused("bench pyramid", "not yet part of this version");
 }
 
 TEST_CASE("a broken scene is refused by run and by check, with the path, and writes no result") {
