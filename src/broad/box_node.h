@@ -75,17 +75,7 @@ inline Aabb clamp_to_finite(const Aabb& box) {
 }
 
 // A bit for each slot whose box overlaps the finite `box`.
-inline std::uint32_t find_overlaps(const BoxNode& node, const Aabb& box) {
-    constexpr std::uint32_t bits[BoxNode::width] = {1, 2, 4, 8, 16, 32, 64, 128};
-    std::uint32_t mask = 0;
-    for (int i = 0; i < BoxNode::width; ++i) {
-        const bool hit = (node.lower[0][i] <= box.upper.x) & (box.lower.x <= node.upper[0][i]) &
-                         (node.lower[1][i] <= box.upper.y) & (box.lower.y <= node.upper[1][i]) &
-                         (node.lower[2][i] <= box.upper.z) & (box.lower.z <= node.upper[2][i]);
-        mask |= hit ? bits[i] : 0u;
-    }
-    return mask;
-}
+std::uint32_t find_overlaps(const BoxNode& node, const Aabb& box);
 
 inline Aabb slot_box(const BoxNode& node, int i) {
     return {{node.lower[0][i], node.lower[1][i], node.lower[2][i]},
@@ -108,37 +98,9 @@ inline void clear_slot(BoxNode& node, int i) {
 }
 
 // The box about all slots.
-inline Aabb node_box(const BoxNode& node) {
-    static_assert(BoxNode::width == 8);
-    float low[3], high[3];
-    for (int axis = 0; axis < 3; ++axis) {
-        float l[4], u[4];
-        for (int i = 0; i < 4; ++i) l[i] = min(node.lower[axis][i], node.lower[axis][i + 4]);
-        for (int i = 0; i < 4; ++i) u[i] = max(node.upper[axis][i], node.upper[axis][i + 4]);
-        low[axis] = min(min(l[0], l[2]), min(l[1], l[3]));
-        high[axis] = max(max(u[0], u[2]), max(u[1], u[3]));
-    }
-    return {{low[0], low[1], low[2]}, {high[0], high[1], high[2]}};
-}
+Aabb node_box(const BoxNode& node);
 
 // The slot that grows least to hold `box`; the smaller one of two that grow alike.
-inline int find_cheapest_slot(const BoxNode& node, const Aabb& box) {
-    float size[BoxNode::width], growth[BoxNode::width];
-    for (int i = 0; i < BoxNode::width; ++i) {
-        size[i] = measure(node.upper[0][i] - node.lower[0][i], node.upper[1][i] - node.lower[1][i],
-                          node.upper[2][i] - node.lower[2][i]);
-        growth[i] =
-            measure(max(node.upper[0][i], box.upper.x) - min(node.lower[0][i], box.lower.x),
-                    max(node.upper[1][i], box.upper.y) - min(node.lower[1][i], box.lower.y),
-                    max(node.upper[2][i], box.upper.z) - min(node.lower[2][i], box.lower.z)) -
-            size[i];
-    }
-    int best = 0;
-    for (int i = 1; i < node.count; ++i) {
-        if (growth[i] < growth[best] || (growth[i] == growth[best] && size[i] < size[best]))
-            best = i;
-    }
-    return best;
-}
+int find_cheapest_slot(const BoxNode& node, const Aabb& box);
 
 }  // namespace cairn

@@ -18,6 +18,7 @@
 
 #include <bit>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "broad/box_node.h"
@@ -44,11 +45,15 @@ public:
     // visit(id) for every leaf whose box overlaps.
     template <class Visit>
     void query(const Aabb& box, Visit&& visit) const;
-    // visit(node) for every node of leaves whose box overlaps the finite `box`.
-    template <class Visit>
-    void visit_leaf_nodes(const Aabb& box, Visit&& visit) const;
     // Ids of all leaves, in the order of the tree.
     void list_leaves(std::vector<std::uint32_t>& ids) const;
+
+    // visit(id, other) for every leaf `other` whose box overlaps that of a marked leaf `id` of
+    // `seekers`, a node of leaves of this tree or another. Of two marked leaves of this tree only
+    // one seeks the other; seekers from another tree find all, or all that are not marked.
+    enum class Marked { OnlyOneWay, All, None };
+    template <class Visit>
+    void meet(const BoxNode& seekers, Marked marked, Visit&& visit) const;
 
     // Marks say which leaves' pairs are sought. The node of the leaf where it is the node's first
     // mark, none where it is not.
@@ -106,29 +111,65 @@ private:
 };
 
 template <class Visit>
-void BoxTree::visit_leaf_nodes(const Aabb& box, Visit&& visit) const {
+void BoxTree::query(const Aabb& box, Visit&& visit) const {
     if (root_ == none) return;
+    const Aabb finite = clamp_to_finite(box);
     std::uint32_t stack[max_levels * BoxNode::width];
     int waiting = 0;
     stack[waiting++] = root_;
     while (waiting > 0) {
         const BoxNode& at = nodes_[stack[--waiting]];
-        if (at.level == 0) {
-            visit(at);
-            continue;
+        std::uint32_t hits = find_overlaps(at, finite);
+        for (; hits != 0; hits &= hits - 1) {
+            const std::uint32_t child = at.child[std::countr_zero(hits)];
+            if (at.level == 0) {
+                visit(child);
+            } else {
+                stack[waiting++] = child;
+            }
         }
-        for (std::uint32_t hits = find_overlaps(at, box); hits != 0; hits &= hits - 1)
-            stack[waiting++] = at.child[std::countr_zero(hits)];
     }
 }
 
 template <class Visit>
-void BoxTree::query(const Aabb& box, Visit&& visit) const {
-    const Aabb finite = clamp_to_finite(box);
-    visit_leaf_nodes(finite, [&](const BoxNode& at) {
-        for (std::uint32_t hits = find_overlaps(at, finite); hits != 0; hits &= hits - 1)
-            visit(at.child[std::countr_zero(hits)]);
-    });
+void BoxTree::meet(const BoxNode& seekers, Marked marked, Visit&& visit) const {
+    if (root_ == none) return;
+    Aabb around = clamp_to_finite(whole_space);
+    std::swap(around.lower, around.upper);
+    for (std::uint32_t left = seekers.marks; left != 0; left &= left - 1)
+        around = unite(around, slot_box(seekers, std::countr_zero(left)));
+
+    // Which of the seekers come how far down.
+    struct Visitors {
+        std::uint32_t node, slots;
+    };
+    Visitors stack[max_levels * BoxNode::width];
+    int waiting = 0;
+    stack[waiting++] = {root_, seekers.marks};
+    while (waiting > 0) {
+        const auto [index, slots] = stack[--waiting];
+        const BoxNode& at = nodes_[index];
+        if (at.level > 0) {
+            for (std::uint32_t hits = find_overlaps(at, around); hits != 0; hits &= hits - 1) {
+                const int slot = std::countr_zero(hits);
+                const std::uint32_t below = slots & find_overlaps(seekers, slot_box(at, slot));
+                if (below != 0) stack[waiting++] = {at.child[slot], below};
+            }
+            continue;
+        }
+        const bool without_marked =
+            marked == Marked::None || (marked == Marked::OnlyOneWay && &at < &seekers);
+        const std::uint32_t sought = without_marked ? ~std::uint32_t(at.marks) : ~0u;
+        if ((sought & ((1u << at.count) - 1)) == 0) continue;
+        for (std::uint32_t left = slots; left != 0; left &= left - 1) {
+            const int seeker = std::countr_zero(left);
+            std::uint32_t hits = sought & find_overlaps(at, slot_box(seekers, seeker));
+            // Within a node the later slot seeks the earlier marked one, and nobody itself.
+            if (&at == &seekers) hits &= ~(at.marks & (~0u << seeker));
+            for (; hits != 0; hits &= hits - 1)
+                visit(seekers.child[seeker], at.child[std::countr_zero(hits)]);
+        }
+    }
 }
 
 }  // namespace cairn

@@ -1,8 +1,8 @@
 // The trees, the marks, and the searches for what is marked; see tree_pairs.h.
 //
-// A pair of two marked ids is met from both sides; the smaller id tells it. All marked leaves of a
-// node go down a tree together, as one box around them, and are tested one by one only at the
-// nodes of leaves: siblings are near each other, and most of the way down is the same.
+// A pair of two marked ids is told once: an endless box tells what it meets in the trees, what
+// moves tells what stands still, and within a tree the place in it decides. All marked leaves of a
+// node go down a tree together, since siblings are near each other and most of the way is the same.
 
 #include "broad/tree_pairs.h"
 
@@ -152,6 +152,9 @@ std::size_t TreePairs::prepare_search() {
             searches_.push_back({node, false, moves});
         }
     }
+    // In the order of the trees, whose nodes are near each other in memory where they are in space.
+    std::sort(searches_.begin(), searches_.end(),
+              [](const Search& a, const Search& b) { return a.index < b.index; });
     return searches_.size();
 }
 
@@ -167,50 +170,29 @@ void TreePairs::search(std::size_t begin, std::size_t end, std::vector<Pair>& pa
 }
 
 void TreePairs::search_node(const BoxNode& node, bool moves, std::vector<Pair>& pairs) const {
-    Aabb boxes[BoxNode::width];
-    std::uint32_t ids[BoxNode::width];
-    int count = 0;
-    for (std::uint32_t left = node.marks; left != 0; left &= left - 1) {
-        const int slot = std::countr_zero(left);
-        boxes[count] = slot_box(node, slot);
-        ids[count++] = node.child[slot];
-    }
-    Aabb around = boxes[0];
-    for (int i = 1; i < count; ++i) around = unite(around, boxes[i]);
+    using Marked = BoxTree::Marked;
+    const auto meet = [&](std::uint32_t a, std::uint32_t b) { pairs.push_back(make_sorted(a, b)); };
+    if (moves) trees_[false].meet(node, Marked::All, meet);
+    trees_[true].meet(node, moves ? Marked::OnlyOneWay : Marked::None, meet);
 
     for (const bool others_move : {false, true}) {
         if (!moves && !others_move) continue;
-        trees_[others_move].visit_leaf_nodes(around, [&](const BoxNode& other) {
-            for (int i = 0; i < count; ++i) {
-                std::uint32_t hits = find_overlaps(other, boxes[i]);
-                for (; hits != 0; hits &= hits - 1) {
-                    const int slot = std::countr_zero(hits);
-                    const std::uint32_t id = other.child[slot];
-                    // Of two marked ones the smaller tells; and nobody meets itself.
-                    if ((other.marks >> slot & 1) && id <= ids[i]) continue;
-                    pairs.push_back(make_sorted(ids[i], id));
-                }
-            }
-        });
-        for (const std::uint32_t id : endless_[others_move]) {
-            for (int i = 0; i < count; ++i) {
-                if ((states_[id] & marked) && id < ids[i]) continue;
-                if (overlaps(boxes_[id], boxes[i])) pairs.push_back(make_sorted(ids[i], id));
-            }
+        for (const std::uint32_t other : endless_[others_move]) {
+            if (states_[other] & marked) continue;
+            std::uint32_t hits = node.marks & find_overlaps(node, clamp_to_finite(boxes_[other]));
+            for (; hits != 0; hits &= hits - 1) meet(node.child[std::countr_zero(hits)], other);
         }
     }
 }
 
 void TreePairs::search_endless(std::uint32_t id, std::vector<Pair>& pairs) const {
     const Aabb& box = boxes_[id];
-    const auto meet = [&](std::uint32_t other) {
-        if ((states_[other] & marked) && other <= id) return;
-        pairs.push_back(make_sorted(id, other));
-    };
+    const auto meet = [&](std::uint32_t other) { pairs.push_back(make_sorted(id, other)); };
     for (const bool others_move : {false, true}) {
         if (!moves(id) && !others_move) continue;
         trees_[others_move].query(box, meet);
         for (const std::uint32_t other : endless_[others_move]) {
+            if ((states_[other] & marked) && other <= id) continue;
             if (overlaps(boxes_[other], box)) meet(other);
         }
     }
