@@ -196,6 +196,18 @@ Status check_counts(const BenchCommand& command) {
     return check("--steps", command.steps.value_or(2), 2, 1'000'000);
 }
 
+// Before minutes of running, not after them.
+Status check_target(const char* flag, const std::string& path) {
+    namespace fs = std::filesystem;
+    if (path.empty() || path == "-") return Done{};
+    std::error_code ignored;
+    const fs::path folder = fs::path(path).has_parent_path() ? fs::path(path).parent_path() : ".";
+    const bool can_write = access(folder.c_str(), W_OK) == 0 && !fs::is_directory(path, ignored);
+    if (can_write) return Done{};
+    return refuse(
+        fmt::format("{}: cannot write {}; allowed: a file in a folder that is there", flag, path));
+}
+
 BenchRun run_once(const BenchEngine& engine, const BenchSceneInfo& scene, int threads,
                   int time_limit) {
     const ProcessOutcome outcome = run_process(
@@ -286,6 +298,10 @@ int write_file(const std::string& path, const std::string& text, const char* fla
 int bench(const BenchCommand& command) {
     if (const Status status = check_counts(command); !status) {
         return fail(bad_usage, status.error().message);
+    }
+    for (const Status& status :
+         {check_target("--json", command.json), check_target("--html", command.html)}) {
+        if (!status) return fail(bad_usage, status.error().message);
     }
     const Result<std::vector<int>> threads = read_threads(command.threads);
     if (!threads) return fail(bad_usage, threads.error().message);

@@ -167,6 +167,9 @@ TEST_CASE("bad usage of the benchmark says what was found and what exists") {
     check_refused("pyramid20 --peers none --steps 1", "--steps: found 1; allowed: 2 to");
     check_refused("pyramid20 --peers none --threads 1,,2", "--threads: found \"1,,2\"");
     check_refused("pyramid20 --peers none --time-limit 0", "--time-limit: found 0");
+    check_refused("pyramid20 --peers none --json /no/such/figures",
+                  "cannot write /no/such/figures");
+    check_refused("pyramid20 --peers none --html /", "cannot write /;");
 }
 
 TEST_CASE("a peer that crashes, hangs or talks nonsense is a row that says so") {
