@@ -50,6 +50,7 @@ th { color: var(--soft); font-weight: 500; text-align: right; vertical-align: bo
 td { text-align: right; white-space: nowrap; padding: 6px 0 6px 16px;
   border-top: 1px solid var(--line); }
 th:first-child, td:first-child { text-align: left; padding-left: 0; }
+table.narrow { width: auto; } table.narrow td + td { padding-left: 48px; }
 tr.first td { font-weight: 650; } td.best { color: var(--good); }
 .legend { display: flex; flex-wrap: wrap; gap: 4px 20px; font-size: 13.5px; margin-top: 10px; }
 .legend svg { display: inline-block; width: 11px; height: 11px; margin: 0 7px 0 0; }
@@ -159,7 +160,7 @@ std::string draw_bars(const BenchReport& report, const BenchTable& table) {
 
 // Of the engines that ran; the best of a column, where less is better, stands out.
 std::string draw_figures(const BenchReport& report, const BenchTable& table) {
-    const std::vector<BenchColumn> columns = make_columns(table);
+    const std::vector<BenchColumn> columns = make_columns(report, table);
     std::string html = R"(<div class="scroll"><table><tr><th></th>)";
     for (const BenchColumn& column : columns) {
         html += "<th>" + escape(column.title) + "</th>";
@@ -256,7 +257,7 @@ std::string draw_memory(const BenchReport& report) {
     };
     std::string html =
         R"(<section class="card"><header><h2>Bytes a body</h2><span>what 100,000 static and )"
-        R"(10,000 moving boxes add to the program</span></header><div class="scroll"><table>)"
+        R"(10,000 moving boxes add to the program</span></header><div class="scroll"><table class="narrow">)"
         R"(<tr><th></th><th>static box</th><th>moving box</th></tr>)";
     for (const BodyMemory& memory : report.memory) {
         html += fmt::format("<tr{}><td>{}</td><td>{}</td><td>{}</td></tr>",

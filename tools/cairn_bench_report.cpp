@@ -42,17 +42,36 @@ std::string say_count(int n, const char* what) {
 
 }  // namespace
 
-std::optional<BenchSpread> spread_of_time(const BenchTable& table, const BenchRow& row) {
-    std::vector<double> times;
+namespace {
+
+std::optional<BenchSpread> spread_of(const BenchRow& row, const char* field) {
+    std::vector<double> values;
     for (const BenchRun& run : row.runs) {
-        if (!run.problem.empty()) continue;
-        times.push_back(run.fields.at(table.threads == 1 ? "cpu_ms" : "wall_ms").get<double>());
+        if (run.problem.empty()) values.push_back(run.fields.at(field).get<double>());
     }
-    if (times.empty()) return {};
-    std::sort(times.begin(), times.end());
-    const std::size_t count = times.size();
-    return BenchSpread{0.5 * (times[(count - 1) / 2] + times[count / 2]), times.front(),
-                       times.back()};
+    if (values.empty()) return {};
+    std::sort(values.begin(), values.end());
+    const std::size_t count = values.size();
+    return BenchSpread{0.5 * (values[(count - 1) / 2] + values[count / 2]), values.front(),
+                       values.back()};
+}
+
+}  // namespace
+
+std::optional<BenchSpread> spread_of_time(const BenchTable& table, const BenchRow& row) {
+    return spread_of(row, table.threads == 1 ? "cpu_ms" : "wall_ms");
+}
+
+std::optional<double> speedup_of(const BenchReport& report, const BenchTable& table,
+                                 const BenchRow& row) {
+    if (table.threads == 1) return {};
+    const std::optional<BenchSpread> many = spread_of(row, "wall_ms");
+    for (const BenchTable& other : report.tables) {
+        if (other.scene != table.scene || other.threads != 1) continue;
+        const std::optional<BenchSpread> one = spread_of(other.rows[row.engine], "wall_ms");
+        if (one && many && many->median > 0) return one->median / many->median;
+    }
+    return {};
 }
 
 std::optional<double> ratio_to(const BenchTable& table, const BenchRow& row) {
@@ -143,7 +162,7 @@ Figures list_times_a_body(const BenchTable& table) {
 
 }  // namespace
 
-std::vector<BenchColumn> make_columns(const BenchTable& table) {
+std::vector<BenchColumn> make_columns(const BenchReport& report, const BenchTable& table) {
     std::vector<BenchColumn> columns;
     const auto add = [&](const char* title, const Figures& figures, Better better,
                          std::string (*tell)(double)) {
@@ -155,6 +174,10 @@ std::vector<BenchColumn> make_columns(const BenchTable& table) {
                                std::string (*tell)(double)) {
         add(title, list_fields(table, name), better, tell);
     };
+    Figures speedups;
+    for (const BenchRow& row : table.rows) speedups.push_back(speedup_of(report, table, row));
+    add("over one thread", speedups, Better::Neither,
+        [](double times) { return fmt::format("{:.2f} x", times); });
     add("\u00b5s a body", list_times_a_body(table), Better::Neither, say);
     add_field("first step, ms", "first_ms", Better::Less, say);
     add_field("mean penetration", "mean_penetration", Better::Less, say_length);
@@ -206,7 +229,7 @@ void print_table(std::FILE* file, const BenchReport& report, const BenchTable& t
         fmt::print(file, " Core to core, one way: {:.0f} to {:.0f} ns over the rounds.",
                    sorted.front(), sorted.back());
     }
-    const std::vector<BenchColumn> columns = make_columns(table);
+    const std::vector<BenchColumn> columns = make_columns(report, table);
     fmt::print(file, "\n\n| engine | {} ms a step: median (least to most) | Cairn / it |",
                say_clock(table));
     for (const BenchColumn& column : columns) fmt::print(file, " {} |", column.title);
@@ -269,6 +292,9 @@ std::string make_json(const BenchReport& report) {
                               {"spread", (time->most - time->least) / time->median}};
             }
             if (const auto ratio = ratio_to(table, row)) told["cairn_over_this"] = *ratio;
+            if (const auto speedup = speedup_of(report, table, row)) {
+                told["over_one_thread"] = *speedup;
+            }
             if (!describe_problem(row).empty()) told["problem"] = describe_problem(row);
             told["runs"] = Json::array();
             for (const BenchRun& run : row.runs) {

@@ -63,6 +63,9 @@ struct BenchSpread {
 std::optional<BenchSpread> spread_of_time(const BenchTable& table, const BenchRow& row);
 /// Cairn's median over the row's; nothing for Cairn's own row.
 std::optional<double> ratio_to(const BenchTable& table, const BenchRow& row);
+/// Wall time on one thread over that on this table's threads, where the report has both.
+std::optional<double> speedup_of(const BenchReport& report, const BenchTable& table,
+                                 const BenchRow& row);
 /// A field of the last run that went well.
 std::optional<double> find_field(const BenchRow& row, const char* name);
 std::string find_settings(const BenchRow& row);
@@ -78,7 +81,7 @@ struct BenchColumn {
     std::optional<std::size_t> best;
 };
 /// Without the columns in which no row has a figure.
-std::vector<BenchColumn> make_columns(const BenchTable& table);
+std::vector<BenchColumn> make_columns(const BenchReport& report, const BenchTable& table);
 
 /// Of every engine that has run: "label: settings".
 std::vector<std::string> list_settings(const BenchReport& report);
