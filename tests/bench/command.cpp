@@ -190,3 +190,38 @@ TEST_CASE("a library's solvers can be compared with each other") {
     CHECK(rows[1]["runs"].size() == 2);
     CHECK(rows[1]["cairn_over_this"].get<double>() > 0);
 }
+
+TEST_CASE("medians, spreads and the gain of a thread are those of the runs") {
+    // A Jolt whose runs of one thread take 1, 5 and 3 ms of processor time a step, and 8 ms of wall
+    // time over its threads.
+    const Scratch scratch;
+    install_false_jolt(scratch,
+                       "runs=$(dirname \"$0\")/runs; echo . >>\"$runs\"\n"
+                       "case $(wc -l <\"$runs\") in 1) cpu=1 ;; 2) cpu=5 ;; *) cpu=3 ;; esac\n"
+                       "echo an engine may talk\n"
+                       "printf '{\"settings\":\"s\",\"bodies\":3,\"moving\":2,' \n"
+                       "printf '\"cpu_ms\":%s,\"wall_ms\":%s,' $cpu $((8 / $3))\n"
+                       "printf '\"first_ms\":9,\"empty_kib\":10,\"peak_kib\":20,'\n"
+                       "printf '\"deepest_penetration\":0.5,\"mean_penetration\":0.25,'\n"
+                       "printf '\"drift\":null,\"sag_before_3s\":null,\"sag_from_3s\":null,'\n"
+                       "printf '\"kinetic_energy\":1,\"lost\":0,\"awake\":null}\\n'");
+    const Outcome outcome =
+        call(scratch, scratch.file("cairn"),
+             "seesaw --steps 4 --repeats 3 --threads 1,2 --json " + scratch.file("json"));
+    CAPTURE(outcome.out);
+    const Json tables = Json::parse(read_all(scratch.file("json")))["tables"];
+    REQUIRE(tables.size() == 2);
+    const Json& ours = tables[0]["rows"][0];
+    const Json& one = tables[0]["rows"][1];
+    const Json& two = tables[1]["rows"][1];
+    CHECK(one["ms"]["median"] == 3);
+    CHECK(one["ms"]["least"] == 1);
+    CHECK(one["ms"]["most"] == 5);
+    CHECK(one["ms"]["spread"].get<double>() == doctest::Approx(4.0 / 3));
+    CHECK(one["cairn_over_this"].get<double>() ==
+          doctest::Approx(ours["ms"]["median"].get<double>() / 3));
+    CHECK(!one.contains("over_one_thread"));
+    CHECK(two["ms"]["median"] == 4);
+    CHECK(two["over_one_thread"] == 2);
+    CHECK(outcome.out.find("| 250 mm | 500 mm |") != std::string::npos);
+}
