@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include "cairn/math.h"
 #include "scene/replay_page.h"
@@ -128,20 +129,36 @@ TEST_CASE("noise of half a pitch about a place of rest is not recorded") {
     PoseCoder writer(lattice, 1);
     Bytes bytes;
     for (int step = 0; step < 50; ++step) {
-        const double noise = (step % 2 == 0 ? 0.2 : -0.2) * lattice.position_pitch;
+        // On both sides of the edge between two lattice points.
+        const double noise = (step % 2 == 0 ? 0.3 : 0.7) * lattice.position_pitch;
         const LatticePose pose = writer.quantise(0, {1000 + noise, 20, -3}, {0, 0, 0, 1});
         writer.encode(std::vector{pose}, bytes);
     }
     CHECK(bytes.size() == 50);
 }
 
-TEST_CASE("a pose stream that was cut short is refused") {
-    PoseCoder writer(test_lattice(), body_count), reader(test_lattice(), body_count);
+TEST_CASE("a body beyond all bounds is pinned where a page can still tell it") {
+    const PoseCoder writer(test_lattice(), 1);
+    const LatticePose pose = writer.quantise(0, {1e300, -1e300, -3}, {0, 0, 0, 1});
+    CHECK(pose.position[0] == 1ll << 46);
+    CHECK(pose.position[1] == -(1ll << 46));
+    CHECK(pose.position[2] == 0);
+}
+
+TEST_CASE("a pose stream that was cut short anywhere, or speaks of more bodies, is refused") {
+    PoseCoder writer(test_lattice(), body_count);
     Bytes bytes;
     writer.encode(quantise_all(writer, 0.5), bytes);
-    bytes.resize(bytes.size() / 2);
-    ByteReader in(bytes);
     std::vector<LatticePose> frame;
+    for (std::size_t length = 0; length < bytes.size(); ++length) {
+        PoseCoder reader(test_lattice(), body_count);
+        ByteReader in(std::span<const std::uint8_t>(bytes).first(length));
+        CHECK_FALSE(reader.decode(in, frame));
+    }
+    Bytes beyond;
+    put_varint(beyond, (body_count + 1) << 2);
+    PoseCoder reader(test_lattice(), body_count);
+    ByteReader in(beyond);
     CHECK_FALSE(reader.decode(in, frame));
 }
 
@@ -189,6 +206,12 @@ TEST_CASE("contacts that come, stay, change and go are each found again at their
             if (k == 9) contacts.push_back({a, b, {1000.5 + k, 20, -3}, {0, 1, 0}, -0.002f, 1.5f});
         }
         coded.push_back(writer.quantise(contacts));
+        // By bodies, which is how unchanged contacts are found again.
+        CHECK(std::is_sorted(coded.back().begin(), coded.back().end(),
+                             [](const LatticeContact& a, const LatticeContact& b) {
+                                 return std::pair(a.body_a, a.body_b) <
+                                        std::pair(b.body_a, b.body_b);
+                             }));
         writer.encode(coded.back(), bytes);
     }
     ByteReader in(bytes);

@@ -91,6 +91,29 @@ TEST_CASE(
             CHECK(std::abs(decode_position(test_lattice(), pose).x - 0.5 * step) <= std::exp2(-13));
         }
     }
+    ContactCoder contact_reader(test_lattice());
+    std::vector<LatticeContact> contacts;
+    std::size_t frames_with_contacts = 0;
+    for (std::size_t i = 0; i < w.steps.size(); ++i) {
+        if (w.contact_sizes[i] == 0xffffffffu) continue;
+        ++frames_with_contacts;
+        REQUIRE(contact_reader.decode(in, contacts));
+        REQUIRE(contacts.size() == 20);
+        for (const LatticeContact& contact : contacts) {
+            const double x = static_cast<double>(contact.fields[PointX]) * std::exp2(-10);
+            CHECK(std::abs(x - 0.5 * w.steps[i]) <= std::exp2(-10));
+        }
+    }
+    CHECK(in.at_end());
+    CHECK(frames_with_contacts >= 5);
+}
+
+TEST_CASE("the last step stays, also where adding it is what thins the recording out") {
+    for (std::uint32_t steps = 101; steps < 300; steps += 2) {
+        ReplayTrack track(test_lattice(), 4, 6000);
+        shake(track, 4, steps);
+        CHECK(write_out(track).steps.back() == steps);
+    }
 }
 
 TEST_CASE("where contacts take the room, contacts go first") {
