@@ -383,6 +383,31 @@ TEST_CASE("bodies that cross the world for half a minute leave a tree as good as
     CHECK(walked_mean < 1.3 * fresh_mean);
 }
 
+TEST_CASE(
+    "boxes put in one by one make a tree little worse than at once, and leave no room behind") {
+    Random random;
+    TreePairs single, bulk;
+    std::vector<Proxy> many;
+    for (std::uint32_t id = 0; id < 5000; ++id) {
+        many.push_back({cube(random.point(15), 0.5f), id, true});
+        single.insert(id, many.back().box, true);
+    }
+    bulk.insert_many(many);
+    std::size_t single_visits = 0, bulk_visits = 0;
+    for (const Proxy& proxy : many) {
+        single_visits += single.tree(true).count_visits(proxy.box);
+        bulk_visits += bulk.tree(true).count_visits(proxy.box);
+    }
+    const double ratio = double(single_visits) / double(bulk_visits);
+    MESSAGE(ratio << " times the nodes a query");
+    CHECK(ratio < 1.6);
+
+    // Where the only box far away was, nothing is looked for.
+    single.insert(5000, cube({1000, 1000, 1000}, 1), true);
+    single.remove(5000);
+    CHECK(single.tree(true).count_visits(cube({500, 500, 500}, 1)) == 1);
+}
+
 TEST_CASE("pairs are sorted by both ids, few or many, small ids or large") {
     Random random;
     std::vector<Pair> room;
