@@ -37,7 +37,9 @@ bool is_same_number(const nlohmann::json& a, const nlohmann::json& b) {
 void check_nothing_lost(const std::string& given, const std::string& written) {
     const nlohmann::json kept = nlohmann::json::parse(written).flatten();
     const nlohmann::json all = nlohmann::json::parse(given).flatten();
-    for (const auto& [place, value] : all.items()) {
+    for (const auto& item : all.items()) {
+        const std::string& place = item.key();
+        const nlohmann::json& value = item.value();
         CAPTURE(place);
         if (place.find("/rotation/") != std::string::npos) continue;
         if (place.find("/normal/") != std::string::npos) continue;
