@@ -157,6 +157,7 @@ void BoxTree::meet(const BoxNode& seekers, Marked marked, Visit&& visit) const {
             }
             continue;
         }
+        // Nodes of one tree stand in one array: their addresses are ordered as their indices are.
         const bool without_marked =
             marked == Marked::None || (marked == Marked::OnlyOneWay && &at < &seekers);
         const std::uint32_t sought = without_marked ? ~std::uint32_t(at.marks) : ~0u;
