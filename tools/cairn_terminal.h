@@ -2,6 +2,7 @@
 // What the command line says on a terminal: one-line errors, the progress bar.
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 
@@ -16,7 +17,7 @@ inline constexpr int bad_usage = 2;
 int fail(int status, const std::string& message);
 
 /// A line on standard error that shows how far a run is: only where that is a terminal, and only
-/// once the run has taken a second.
+/// once the run has taken a second. As wide as the terminal has room for, and without colour.
 class ProgressBar {
 public:
     ProgressBar(std::uint64_t total, bool is_wanted);
@@ -25,10 +26,13 @@ public:
     void clear();
 
 private:
+    void show(const std::string& line);
+
     using Clock = std::chrono::steady_clock;
     std::uint64_t total_;
     bool is_wanted_;
     bool is_shown_ = false;
+    std::size_t shown_length_ = 0;
     Clock::time_point start_;
     Clock::time_point last_;
 };
