@@ -16,6 +16,7 @@ struct Variant {
 constexpr Variant variants[] = {
     {"cairn", StepSettings{}.solver},
     {"cairn:sequential-impulse", Solver::SequentialImpulse},
+    {"cairn:soft-step", Solver::SoftStep},
     {"cairn:xpbd", Solver::Xpbd},
 };
 

@@ -75,13 +75,14 @@ void add_run_options(CLI::App& app, tool::RunCommand& run) {
     app.add_option("--seconds", options.seconds,
                    "how long to simulate instead of the scene's duration");
     app.add_option("--dt", options.dt, "seconds a step");
-    app.add_option("--solver", options.solver, "sequential-impulse or xpbd");
+    app.add_option("--solver", options.solver, "soft-step, sequential-impulse or xpbd");
     app.add_option("--substeps", options.substeps, "substeps a step, 1 to 1000");
     app.add_option("--iterations", options.iterations, "iterations a substep, 1 to 1000");
     app.add_option("--narrow-phase", options.narrow_phase, "sat or gjk-epa");
     app.add_option("--broad-phase", options.broad_phase, "brute-force");
     app.add_option("--threads", run.threads, "accepted; this version runs on one thread");
-    app.add_option("--lanes", run.lanes, "accepted; this version runs on one lane");
+    app.add_option("--lanes", run.lanes,
+                   "at most N contacts side by side; default: as many as the processor can");
     app.add_option("--json", run.json, "write the result to this file, - for standard output");
     app.add_option("--sample-every", options.sample_every, "samples in the result, every K steps")
         ->check(CLI::PositiveNumber);

@@ -81,7 +81,7 @@ Status check_usage(const RunCommand& command) {
             fmt::format("{}: found {}; allowed: a whole number from 1 to 1024", flag, count)};
     };
     if (Status status = check_count(command.threads, "--threads"); !status) return status;
-    return check_count(command.lanes, "--lanes");
+    return command.lanes == 0 ? Status(Done{}) : check_count(command.lanes, "--lanes");
 }
 
 // Finds out before a long run whether its result can be kept.
@@ -193,7 +193,9 @@ int run(const RunCommand& command) {
         return fail(bad_usage, usage.error().message);
     Result<Scene> loaded = load_scene(command.scene, command.settings);
     if (!loaded) return fail(bad_usage, loaded.error().message);
-    Result<RunPlan> plan = scene::plan_run(std::move(loaded).value(), command.options);
+    scene::Scene scene = std::move(loaded).value();
+    scene.world.step.lanes = static_cast<int>(command.lanes);
+    Result<RunPlan> plan = scene::plan_run(std::move(scene), command.options);
     if (!plan) return fail(bad_usage, plan.error().message);
     for (const auto& [path, flag] :
          {std::pair(command.json, "--json"), std::pair(command.replay, "--replay")}) {
@@ -203,9 +205,8 @@ int run(const RunCommand& command) {
     }
     Result<BuiltWorld> built = scene::build_world(plan->scene);
     if (!built) return fail(bad_usage, fmt::format("{}: {}", command.scene, built.error().message));
-    if ((command.threads > 1 || command.lanes > 1) && !command.quiet) {
-        fmt::print(stderr,
-                   "cairn: this version runs on one thread and one lane, whatever is asked for\n");
+    if (command.threads > 1 && !command.quiet) {
+        fmt::print(stderr, "cairn: this version runs on one thread, whatever is asked for\n");
     }
 
     Attempt attempt{std::move(built).value(), std::move(plan).value(), {}, {}};

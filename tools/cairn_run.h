@@ -13,9 +13,9 @@ struct RunCommand {
     std::vector<std::string> settings;  // of a built-in scene, key=value
     scene::RunOptions options;
     std::int64_t threads = 1;
-    std::int64_t lanes = 1;
-    std::string json;    // a path, "-", or empty
-    std::string replay;  // a path, or empty
+    std::int64_t lanes = 0;  // 0: as many as the processor can
+    std::string json;        // a path, "-", or empty
+    std::string replay;      // a path, or empty
     bool quiet = false;
 };
 

@@ -10,6 +10,7 @@ namespace cairn {
 /// How constraints are met.
 enum class Solver : std::uint8_t {
     SequentialImpulse,  ///< velocities by projected Gauss-Seidel, positions corrected after
+    SoftStep,           ///< velocities in substeps, contacts first springs, then rigid
     Xpbd,               ///< positions corrected in many substeps, velocities derived
 };
 
@@ -25,12 +26,17 @@ enum class BroadPhase : std::uint8_t {
 };
 
 struct StepSettings {
-    Solver solver = Solver::SequentialImpulse;
-    int substeps = 0;    ///< 1 to 1000; 0: the solver's own default (1; XPBD 20)
-    int iterations = 0;  ///< 1 to 1000; 0: the solver's own default (10; XPBD 1)
+    Solver solver = Solver::SoftStep;
+    int substeps = 0;  ///< 1 to 1000; 0: the solver's own default (soft step 4, sequential impulses
+                       ///< 1, XPBD 20)
+    int iterations =
+        0;  ///< 1 to 1000; 0: the solver's own default (sequential impulses 10, the others 1)
     NarrowPhase narrow_phase = NarrowPhase::Sat;
     BroadPhase broad_phase = BroadPhase::BruteForce;
     float contact_compliance = 0;  ///< XPBD only: how much a contact gives, m/N, >= 0
+    /// Soft step only: at most so many contacts side by side, 1 to 1024; 0: as many as the
+    /// processor can. Never changes a result.
+    int lanes = 0;
     friend constexpr bool operator==(const StepSettings&, const StepSettings&) = default;
 };
 

@@ -34,6 +34,7 @@ struct StepProblem {
     int iterations = 1;
     float restitution_threshold = 1;  // m/s
     float contact_compliance = 0;     // m/N
+    int lanes = 0;  // at most so many rows side by side; 0: as many as the machine can
 };
 
 }  // namespace cairn

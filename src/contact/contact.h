@@ -57,6 +57,8 @@ struct Contact {
     Vec3 normal = {0, 1, 0};  // unit, from A to B, world
     int point_count = 0;
     std::array<ContactPoint, 4> points;
+    // What the contact has long borne, N, normal: what rests on it need not press it first.
+    float remembered_load = 0;
     Vec3 rolling_torque;        // N m on B, where the next step begins
     float spinning_torque = 0;  // N m on B about the normal
     Vec3 rolling_impulse;       // N m s on B over the last step

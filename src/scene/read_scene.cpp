@@ -25,12 +25,13 @@ struct Word {
     Value value;
 };
 
-constexpr Word<Solver> solver_words[] = {{"sequential-impulse", Solver::SequentialImpulse},
+constexpr Word<Solver> solver_words[] = {{"soft-step", Solver::SoftStep},
+                                         {"sequential-impulse", Solver::SequentialImpulse},
                                          {"xpbd", Solver::Xpbd}};
 constexpr Word<NarrowPhase> narrow_phase_words[] = {{"sat", NarrowPhase::Sat},
                                                     {"gjk-epa", NarrowPhase::GjkEpa}};
 constexpr Word<BroadPhase> broad_phase_words[] = {{"brute-force", BroadPhase::BruteForce}};
-constexpr std::string_view later_words[] = {"soft-step", "avbd", "tree"};
+constexpr std::string_view later_words[] = {"avbd", "tree"};
 
 template <class Value, std::size_t N>
 std::string_view find_word(const Word<Value> (&words)[N], Value value) {
@@ -305,7 +306,7 @@ std::string_view narrow_phase_name(NarrowPhase phase) {
 }
 std::string_view broad_phase_name(BroadPhase phase) { return find_word(broad_phase_words, phase); }
 Result<Solver> parse_solver(std::string_view word) {
-    return parse_word(solver_words, word, "soft-step avbd");
+    return parse_word(solver_words, word, "avbd");
 }
 Result<NarrowPhase> parse_narrow_phase(std::string_view word) {
     return parse_word(narrow_phase_words, word, "");

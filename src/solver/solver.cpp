@@ -7,6 +7,7 @@ namespace cairn {
 SolverState make_solver(Solver solver) {
     switch (solver) {
         case Solver::SequentialImpulse: return SequentialImpulse{};
+        case Solver::SoftStep: return SoftStep{};
         case Solver::Xpbd: return Xpbd{};
     }
     return {};

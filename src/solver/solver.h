@@ -7,6 +7,7 @@
 
 #include "cairn/settings.h"
 #include "solver/sequential_impulse/sequential_impulse.h"
+#include "solver/soft_step/soft_step.h"
 #include "solver/xpbd/xpbd.h"
 
 namespace cairn {
@@ -19,10 +20,10 @@ concept SolverMethod = std::copyable<Method> &&
     method.advance(problem);
 };
 
-static_assert(SolverMethod<SequentialImpulse> && SolverMethod<Xpbd>);
+static_assert(SolverMethod<SequentialImpulse> && SolverMethod<SoftStep> && SolverMethod<Xpbd>);
 
 // In the order of the enumerators of Solver.
-using SolverState = std::variant<SequentialImpulse, Xpbd>;
+using SolverState = std::variant<SequentialImpulse, SoftStep, Xpbd>;
 
 SolverState make_solver(Solver solver);
 

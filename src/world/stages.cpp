@@ -63,6 +63,7 @@ void find_heights(WorldState& world) {
 
 void clear_contact(Contact& contact) {
     contact.point_count = 0;
+    contact.remembered_load = 0;
     contact.rolling_torque = {};
     contact.spinning_torque = 0;
     contact.rolling_impulse = {};
@@ -195,6 +196,7 @@ void advance(WorldState& world, double dt) {
         .iterations = step.iterations > 0 ? step.iterations : default_iterations(step.solver),
         .restitution_threshold = world.settings.restitution_threshold,
         .contact_compliance = step.contact_compliance,
+        .lanes = step.lanes,
     };
     std::visit([&](auto& method) { method.advance(problem); }, world.solver);
 }

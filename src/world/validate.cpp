@@ -216,6 +216,10 @@ Refusal check_settings(const WorldSettings& s) {
         return refuse(ErrorCode::OutOfRange, name, format(count),
                       "0 (the solver's default) to 1000");
     };
+    if (s.step.lanes < 0 || s.step.lanes > 1024) {
+        return refuse(ErrorCode::OutOfRange, "settings.step.lanes", format(s.step.lanes),
+                      "0 (as many as the processor can) to 1024");
+    }
     return first_of(check_count("settings.step.substeps", s.step.substeps),
                     check_count("settings.step.iterations", s.step.iterations));
 }

@@ -320,7 +320,7 @@ WORDS = {
     "shape_kind_cube": (one_shape(kind="cube"), "bodies[0].shapes[0].kind", "sphere, box, plane"),
     "shape_kind_case": (one_shape(kind="Box"), "bodies[0].shapes[0].kind", 'did you mean "box"'),
     "solver": (scene(step={"solver": "sequential_impulse"}), "step.solver", 'did you mean "sequential-impulse"'),
-    "solver_pgs": (scene(step={"solver": "pgs"}), "step.solver", "sequential-impulse, xpbd"),
+    "solver_pgs": (scene(step={"solver": "pgs"}), "step.solver", "soft-step, sequential-impulse, xpbd"),
     "narrow_phase": (scene(step={"narrow_phase": "gjk"}), "step.narrow_phase", "sat, gjk-epa"),
     "broad_phase": (scene(step={"broad_phase": "brute"}), "step.broad_phase", "brute-force"),
     "lock": (one_body(lock=["x", "w"]), "bodies[0].lock[1]", "x, y, z, rx, ry, rz"), "lock_twice": (one_body(lock=["x", "x"]), "bodies[0].lock[1]", "each axis once"),
@@ -360,7 +360,7 @@ write("not_yet_shape", "sensor", sphere(sensor=True), "bodies[0].shapes[0].senso
 for kind in ["ball", "hinge", "distance", "slider", "weld"]:
     write("not_yet_joint", kind, scene(bodies=[{"name": "a", **BALL}], joints=[{"kind": kind, "bodies": ["a", None], "anchor": [0, 1, 0]}]),
           "joints[0].kind", f'"{kind}" is not yet supported')
-for solver in ["soft-step", "avbd"]:
+for solver in ["avbd"]:
     write("not_yet_step", solver, scene(step={"solver": solver}), "step.solver", "not yet supported")
 write("not_yet_step", "tree", scene(step={"broad_phase": "tree"}), "step.broad_phase", "not yet supported")
 

@@ -53,7 +53,7 @@ std::vector<std::string> compute_lines() {
     for (const scene::Builtin& builtin : scene::builtins()) {
         const Result<scene::Scene> scene = scene::make_builtin(builtin, {});
         REQUIRE_MESSAGE(scene.ok(), scene.error().message);
-        for (const Solver solver : {Solver::SequentialImpulse, Solver::Xpbd}) {
+        for (const Solver solver : {Solver::SequentialImpulse, Solver::SoftStep, Solver::Xpbd}) {
             for (const NarrowPhase narrow_phase : {NarrowPhase::Sat, NarrowPhase::GjkEpa}) {
                 lines.push_back(hash_line(builtin, *scene, solver, narrow_phase));
             }

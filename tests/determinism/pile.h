@@ -15,10 +15,12 @@ struct Method {
     const char* name;
 };
 
-// Both solvers by both narrow phases.
+// Every solver by every narrow phase.
 inline constexpr Method methods[] = {
     {Solver::SequentialImpulse, NarrowPhase::Sat, "sequential-impulse, sat"},
     {Solver::SequentialImpulse, NarrowPhase::GjkEpa, "sequential-impulse, gjk-epa"},
+    {Solver::SoftStep, NarrowPhase::Sat, "soft-step, sat"},
+    {Solver::SoftStep, NarrowPhase::GjkEpa, "soft-step, gjk-epa"},
     {Solver::Xpbd, NarrowPhase::Sat, "xpbd, sat"},
     {Solver::Xpbd, NarrowPhase::GjkEpa, "xpbd, gjk-epa"},
 };

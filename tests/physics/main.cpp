@@ -64,7 +64,7 @@ int main(int argc, char** argv) {
     CLI::App app{"Cairn's accuracy table: every solver against cases with a known answer."};
     app.add_option("--case", command.selection.case_id, "only cases whose id begins so: D08, F");
     app.add_option("--solver", command.solver, "only this solver")
-        ->check(CLI::IsMember({"sequential-impulse", "xpbd"}));
+        ->check(CLI::IsMember({"sequential-impulse", "soft-step", "xpbd"}));
     app.add_option("--narrow-phase", command.narrow_phase, "this narrow phase, for every case")
         ->check(CLI::IsMember({"sat", "gjk-epa"}));
     app.add_option("--dt", command.selection.steps_per_second, "only this many steps a second: 240")
@@ -82,8 +82,9 @@ int main(int argc, char** argv) {
         return app.exit(error) == 0 ? 0 : 2;
     }
     if (!command.solver.empty()) {
-        command.selection.solver =
-            command.solver == "xpbd" ? Solver::Xpbd : Solver::SequentialImpulse;
+        command.selection.solver = command.solver == "xpbd"        ? Solver::Xpbd
+                                   : command.solver == "soft-step" ? Solver::SoftStep
+                                                                   : Solver::SequentialImpulse;
     }
     if (!command.narrow_phase.empty()) {
         command.selection.narrow_phase =

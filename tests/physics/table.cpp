@@ -154,7 +154,12 @@ void print_json(std::FILE* out, const std::vector<Run>& runs) {
 }  // namespace
 
 const char* name(Solver solver) {
-    return solver == Solver::SequentialImpulse ? "sequential-impulse" : "xpbd";
+    switch (solver) {
+        case Solver::SequentialImpulse: return "sequential-impulse";
+        case Solver::SoftStep: return "soft-step";
+        case Solver::Xpbd: return "xpbd";
+    }
+    return "";
 }
 
 const char* name(NarrowPhase narrow_phase) {
@@ -182,7 +187,7 @@ std::vector<Run> plan_runs(const std::vector<Case>& cases, const Selection& sele
         const bool both =
             subject.subject == Subject::Collision || subject.subject == Subject::Piling;
         std::set<std::string> seen;
-        for (const Solver solver : {Solver::SequentialImpulse, Solver::Xpbd}) {
+        for (const Solver solver : {Solver::SequentialImpulse, Solver::SoftStep, Solver::Xpbd}) {
             for (const NarrowPhase narrow : {NarrowPhase::Sat, NarrowPhase::GjkEpa}) {
                 for (const double dt : subject.steps) {
                     Run run{&subject, {solver, narrow, dt, selection.verbose}, 0, {}};
@@ -230,7 +235,7 @@ bool print_summary(std::FILE* out, const std::vector<Run>& runs, bool whole_tabl
     int surprises = 0;
     std::set<std::string> reasons;
     for (const Run& run : runs) {
-        Count& count = counts[has_solver(run) ? name(run.setup.solver) : "both solvers alike"];
+        Count& count = counts[has_solver(run) ? name(run.setup.solver) : "all solvers alike"];
         bool& met = count.met.try_emplace(run.subject->id, true).first->second;
         for (const RunRow& row : run.rows) {
             ++count.rows;

@@ -37,7 +37,7 @@ TEST_CASE("absent keys mean the format's defaults") {
     CHECK(scene.dt == 1.0 / 60);
     CHECK(scene.world.gravity == Vec3{0, -9.81f, 0});
     CHECK(scene.world.restitution_threshold == 1);
-    CHECK(scene.world.step.solver == Solver::SequentialImpulse);
+    CHECK(scene.world.step.solver == Solver::SoftStep);
     CHECK(scene.world.step.narrow_phase == NarrowPhase::Sat);
     CHECK(scene.world.step.broad_phase == BroadPhase::BruteForce);
     CHECK(scene.sleeping);

@@ -97,7 +97,8 @@ BodyDef roll_body(Dice& dice) {
 
 World make_pit(Dice& dice) {
     WorldSettings settings;
-    settings.step.solver = dice.below(2) == 0 ? Solver::SequentialImpulse : Solver::Xpbd;
+    constexpr Solver solvers[] = {Solver::SequentialImpulse, Solver::SoftStep, Solver::Xpbd};
+    settings.step.solver = solvers[dice.below(3)];
     settings.step.narrow_phase = dice.below(2) == 0 ? NarrowPhase::Sat : NarrowPhase::GjkEpa;
     World world = *World::create(settings);
     BodyDef pit{.kind = BodyKind::Static};
@@ -139,7 +140,8 @@ void change_settings(World& world, Dice& dice) {
     };
     WorldSettings settings = world.settings();
     if (dice.below(2) == 0) settings.step.solver = Solver::SequentialImpulse;
-    if (dice.below(2) == 0) settings.step.solver = Solver::Xpbd;
+    if (dice.below(2) == 0) settings.step.solver = Solver::SoftStep;
+    if (dice.below(3) == 0) settings.step.solver = Solver::Xpbd;
     settings.step.narrow_phase = dice.below(2) == 0 ? NarrowPhase::Sat : NarrowPhase::GjkEpa;
     settings.step.iterations = roll_budget(15);
     settings.step.substeps = roll_budget(20);

@@ -24,7 +24,7 @@ BodyDef cube(Position position) { return {.position = position, .shapes = {{.geo
 }  // namespace
 
 TEST_CASE("a body whose force exceeds all numbers is frozen and named, and its neighbours go on") {
-    for (const Solver solver : {Solver::SequentialImpulse, Solver::Xpbd}) {
+    for (const Solver solver : {Solver::SequentialImpulse, Solver::SoftStep, Solver::Xpbd}) {
         World world = world_with(solver);
         const BodyId lower = *world.create_body(cube({0, 0.5, 0}));
         const BodyId upper = *world.create_body(cube({0, 1.5, 0}));
@@ -79,7 +79,7 @@ TEST_CASE("a contact begins once, lasts, and ends once") {
 }
 
 TEST_CASE("the reported impulses are the change of momentum, bounces and friction included") {
-    for (const Solver solver : {Solver::SequentialImpulse, Solver::Xpbd}) {
+    for (const Solver solver : {Solver::SequentialImpulse, Solver::SoftStep, Solver::Xpbd}) {
         World world = world_with(solver);
         BodyDef def = cube({0, 1.2, 0});
         def.linear_velocity = {3, -2, 1};

@@ -1,0 +1,39 @@
+#pragma once
+// The passes over contact rows, compiled for several widths, and the choice among them.
+
+#include <cstdint>
+
+#include "solver/soft_step/soft_row.h"
+
+namespace cairn {
+
+// A stretch of rows of one kind that share no body that can be pushed.
+struct RowRange {
+    float* rows = nullptr;
+    const std::uint32_t* read_a = nullptr;
+    const std::uint32_t* read_b = nullptr;
+    const std::uint32_t* write_a = nullptr;
+    const std::uint32_t* write_b = nullptr;
+    std::size_t count = 0;
+};
+
+struct SoftPass {
+    float inverse_h = 0;
+    bool first = false;  // the first relaxation of a substep's rows adds to the totals
+};
+
+struct SoftKernels {
+    using Kernel = void (*)(const RowRange& range, SoftBody* bodies, const SoftPass& pass);
+    int width = 0;
+    // By kind of row. What each does stands in soft_passes.h.
+    Kernel warm_start[row_kind_count];
+    Kernel solve[row_kind_count];
+    Kernel measure[row_kind_count];
+    Kernel relax[row_kind_count];
+};
+
+// The widest kernels of 1, 4, 8 or 16 lanes that this machine runs and that are no wider than
+// `most`; 0 sets no limit.
+const SoftKernels& find_soft_kernels(int most);
+
+}  // namespace cairn

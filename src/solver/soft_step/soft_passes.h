@@ -1,0 +1,415 @@
+#pragma once
+// What one pass does to contact rows, W manifolds side by side. Each width is compiled by one file
+// (lanes_*.cpp); nothing else includes this.
+//
+//   warm start   the impulses that the rows hold, onto the bodies
+//   solve        soft normals: l <- max(0, l - m (k u + b) - i max(0, l - l_r)), where the
+//                separation s < 0 gives b = k r (s + slop) and the spring gives way only to what
+//                exceeds the remembered load l_r; rigid with b = s/h where s > 0
+//   measure      separations from the bodies' present poses
+//   relax        rigid normals without a push, then friction, which so knows the final load
+//
+// Separations follow the bodies exactly through any rotation R of a step: with g = R^-1 n - n,
+// n.(R r) = n.r + g.r, so it takes one rotation a body, and a body that has not turned adds
+// nothing at all.
+//
+// Friction is Coulomb's on a sphere: sliding along t1, t2, and twisting about n measured at the
+// lever rho at which the points hold it, |(f1, f2, twist / rho)| <= mu load, with one mass for all
+// directions, whose fixed point opposes the motion exactly.
+
+#include <cstddef>
+
+#include "math/lanes.h"
+#include "solver/soft_step/soft_kernels.h"
+
+namespace cairn {
+
+// Rounds over the points of one manifold, to and fro, on its few numbers alone: a flat face that
+// strikes comes to rest level.
+constexpr int normal_rounds = 2;
+// Rounds of the friction of one manifold, likewise.
+constexpr int friction_rounds = 4;
+// Surfaces without friction count as having this little, so that what holds only a twist has a
+// lever.
+constexpr float least_friction = 1e-6f;
+
+// One row in lanes: numbers by their place in the record.
+template <int W>
+class RowLanes {
+public:
+    using F = Lanes<W>;
+    using V = Vec3Lanes<W>;
+    explicit RowLanes(float* row) : row_(row) {}
+
+    F number(std::size_t bytes, int i = 0) const { return F::load(at(bytes, i)); }
+    void set(std::size_t bytes, F x, int i = 0) { x.store(at(bytes, i)); }
+    V vector(std::size_t bytes) const {
+        return {number(bytes), number(bytes, 1), number(bytes, 2)};
+    }
+    SymmetricLanes<W> tensor(std::size_t bytes) const {
+        return {number(bytes),    number(bytes, 1), number(bytes, 2),
+                number(bytes, 3), number(bytes, 4), number(bytes, 5)};
+    }
+
+private:
+    float* at(std::size_t bytes, int i) const { return row_ + (bytes / 4 + std::size_t(i)) * W; }
+    float* row_;
+};
+
+#define CAIRN_FIELD(name) offsetof(Row, name)
+
+template <int W>
+struct LaneVelocities {
+    Vec3Lanes<W> v, w;
+};
+
+template <int W>
+inline LaneVelocities<W> gather_velocities(const SoftBody* bodies, const std::uint32_t* places) {
+    const float* from[W];
+    for (int lane = 0; lane < W; ++lane) from[lane] = &bodies[places[lane]].v.x;
+    const FourLanes<W> v = gather_four<W>(from);
+    for (int lane = 0; lane < W; ++lane) from[lane] += 4;
+    const FourLanes<W> w = gather_four<W>(from);
+    return {{v.x, v.y, v.z}, {w.x, w.y, w.z}};
+}
+
+template <int W>
+inline void scatter_velocities(SoftBody* bodies, const std::uint32_t* places,
+                               const LaneVelocities<W>& in) {
+    float* to[W];
+    for (int lane = 0; lane < W; ++lane) to[lane] = &bodies[places[lane]].v.x;
+    scatter_four<W>({in.v.x, in.v.y, in.v.z, {}}, to);
+    for (int lane = 0; lane < W; ++lane) to[lane] += 4;
+    scatter_four<W>({in.w.x, in.w.y, in.w.z, {}}, to);
+}
+
+// One row with its bodies, from the gather to the scatter.
+template <int P, bool Special, int W>
+class RowPass {
+public:
+    using Row = SoftRow<P>;
+    using F = Lanes<W>;
+    using V = Vec3Lanes<W>;
+
+    RowPass(const RowRange& range, std::size_t r, SoftBody* bodies)
+        : row_(range.rows + r * row_numbers<P>(Special) * W),
+          bodies_(bodies),
+          read_a_(range.read_a + r * W),
+          read_b_(range.read_b + r * W),
+          write_a_(range.write_a + r * W),
+          write_b_(range.write_b + r * W),
+          n_(row_.vector(CAIRN_FIELD(n))),
+          t1_(row_.vector(CAIRN_FIELD(t1))),
+          t2_(row_.vector(CAIRN_FIELD(t2))) {}
+
+    void gather() {
+        a_ = gather_velocities<W>(bodies_, read_a_);
+        b_ = gather_velocities<W>(bodies_, read_b_);
+    }
+    void scatter() {
+        scatter_velocities<W>(bodies_, write_a_, a_);
+        scatter_velocities<W>(bodies_, write_b_, b_);
+    }
+
+    void apply_all() {
+        F load, about_1, about_2;
+        for (int i = 0; i < P; ++i) {
+            const F l = row_.number(CAIRN_FIELD(normal), i);
+            load += l;
+            about_1 += row_.number(CAIRN_FIELD(y), i) * l;
+            about_2 -= row_.number(CAIRN_FIELD(x), i) * l;
+        }
+        if constexpr (Special) {
+            about_1 += row_.number(CAIRN_FIELD(roll_1));
+            about_2 += row_.number(CAIRN_FIELD(roll_2));
+        }
+        const V f = load * n_ + row_.number(CAIRN_FIELD(friction_1)) * t1_ +
+                    row_.number(CAIRN_FIELD(friction_2)) * t2_;
+        push(f, about_1 * t1_ + about_2 * t2_ + row_.number(CAIRN_FIELD(twist)) * n_);
+    }
+
+    void measure() {
+        V moved_a, moved_b;
+        const V bend_a = find_bend(read_a_, moved_a);
+        const V bend_b = find_bend(read_b_, moved_b);
+        const V arm_a = row_.vector(CAIRN_FIELD(arm_a));
+        const V arm_b = row_.vector(CAIRN_FIELD(arm_b));
+        const F at_a = dot(bend_a, arm_a) - row_.number(CAIRN_FIELD(round_a)) * dot(bend_a, n_);
+        const F at_b = dot(bend_b, arm_b) - row_.number(CAIRN_FIELD(round_b)) * dot(bend_b, n_);
+        const F opened = dot(n_, moved_b - moved_a) + (at_b - at_a);
+        const V bend = bend_b - bend_a;
+        const F along_1 = dot(bend, t1_);
+        const F along_2 = dot(bend, t2_);
+        for (int i = 0; i < P; ++i) {
+            F s = row_.number(CAIRN_FIELD(start_separation), i) + opened;
+            if constexpr (P > 1) {
+                s += row_.number(CAIRN_FIELD(x), i) * along_1 +
+                     row_.number(CAIRN_FIELD(y), i) * along_2;
+            }
+            row_.set(CAIRN_FIELD(separation), s, i);
+        }
+    }
+
+    // Springs, as far as points overlap.
+    void solve_soft(F inverse_h) {
+        const F bias_rate = row_.number(CAIRN_FIELD(bias_rate));
+        const F mass_scale = row_.number(CAIRN_FIELD(mass_scale));
+        const F impulse_scale = row_.number(CAIRN_FIELD(impulse_scale));
+        const F slowest = -row_.number(CAIRN_FIELD(push_speed));
+        const F slop = row_.number(CAIRN_FIELD(slop));
+        F bias[P], scale[P], leak[P];
+        for (int i = 0; i < P; ++i) {
+            const F s = row_.number(CAIRN_FIELD(separation), i);
+            const auto open = s > F(0);
+            bias[i] = select(open, s * inverse_h, max(bias_rate * min(s + slop, F(0)), slowest));
+            scale[i] = select(open, F(1), mass_scale);
+            leak[i] = select(open, F(0), impulse_scale);
+        }
+        solve_normals([&](int i, F mass, F u, F l) {
+            return max(l - mass * (scale[i] * u + bias[i]) -
+                           leak[i] * (l - row_.number(CAIRN_FIELD(remembered), i)),
+                       F(0));
+        });
+    }
+
+    void solve_rigid(F inverse_h) {
+        F bias[P], most[P];
+        for (int i = 0; i < P; ++i) {
+            const F s = row_.number(CAIRN_FIELD(separation), i);
+            bias[i] = max(s, F(0)) * inverse_h;
+            // What is open has yet to close: that is the next substep's to meet.
+            most[i] = select(s > F(0), row_.number(CAIRN_FIELD(normal), i), F(1e30f));
+        }
+        solve_normals([&](int i, F mass, F u, F l) {
+            return min(max(l - mass * (u + bias[i]), F(0)), most[i]);
+        });
+    }
+
+    void rub() {
+        F load, hold;
+        for (int i = 0; i < P; ++i) {
+            const F l = row_.number(CAIRN_FIELD(normal), i);
+            load += l;
+            hold += row_.number(CAIRN_FIELD(lever), i) * l;
+        }
+        const V v = relative_velocity();
+        const V spin = b_.w - a_.w;
+        const F limit = max(row_.number(CAIRN_FIELD(friction)), F(least_friction)) * load;
+        const F rho = hold / max(limit, F(1e-30f));
+        const F inverse_rho = F(1) / max(rho, F(1e-15f));
+        const F twist_mass = row_.number(CAIRN_FIELD(twist_mass));
+        // Bodies that cannot twist at all leave the step to the sliding.
+        const F by_twist =
+            select(twist_mass > F(0), twist_mass * (inverse_rho * inverse_rho), F(1e30f));
+        const F mass = min(row_.number(CAIRN_FIELD(tangent_mass)), by_twist);
+        const F k_11 = row_.number(CAIRN_FIELD(k_11));
+        const F k_12 = row_.number(CAIRN_FIELD(k_12));
+        const F k_22 = row_.number(CAIRN_FIELD(k_22));
+        const F k_33 = rho * rho / max(twist_mass, F(1e-30f));
+        F v1 = dot(t1_, v) + row_.number(CAIRN_FIELD(slide_1));
+        F v2 = dot(t2_, v) + row_.number(CAIRN_FIELD(slide_2));
+        F v3 = rho * dot(n_, spin);
+        const F before_1 = row_.number(CAIRN_FIELD(friction_1));
+        const F before_2 = row_.number(CAIRN_FIELD(friction_2));
+        const F twist = row_.number(CAIRN_FIELD(twist));
+        // Where nothing holds a twist, none is carried on.
+        F f1 = before_1, f2 = before_2, f3 = select(rho > F(1e-15f), twist * inverse_rho, F(0));
+        for (int round = 0; round < friction_rounds; ++round) {
+            F g1 = f1 - mass * v1, g2 = f2 - mass * v2, g3 = f3 - mass * v3;
+            const F squared = g1 * g1 + g2 * g2 + g3 * g3;
+            const F shorter =
+                select(squared > limit * limit, limit / square_root(max(squared, F(1e-36f))), F(1));
+            g1 = shorter * g1;
+            g2 = shorter * g2;
+            g3 = shorter * g3;
+            v1 += k_11 * (g1 - f1) + k_12 * (g2 - f2);
+            v2 += k_12 * (g1 - f1) + k_22 * (g2 - f2);
+            v3 += k_33 * (g3 - f3);
+            f1 = g1;
+            f2 = g2;
+            f3 = g3;
+        }
+        row_.set(CAIRN_FIELD(friction_1), f1);
+        row_.set(CAIRN_FIELD(friction_2), f2);
+        row_.set(CAIRN_FIELD(twist), rho * f3);
+        V turning = (rho * f3 - twist) * n_;
+        if constexpr (Special) turning = turning + roll(load, spin);
+        push((f1 - before_1) * t1_ + (f2 - before_2) * t2_, turning);
+    }
+
+    void add_totals() {
+        for (int i = 0; i < P; ++i) add(CAIRN_FIELD(total), CAIRN_FIELD(normal), i);
+        add(CAIRN_FIELD(friction_total_1), CAIRN_FIELD(friction_1));
+        add(CAIRN_FIELD(friction_total_2), CAIRN_FIELD(friction_2));
+        add(CAIRN_FIELD(twist_total), CAIRN_FIELD(twist));
+        if constexpr (Special) {
+            add(CAIRN_FIELD(roll_total_1), CAIRN_FIELD(roll_1));
+            add(CAIRN_FIELD(roll_total_2), CAIRN_FIELD(roll_2));
+        }
+    }
+
+private:
+    V relative_velocity() const {
+        return (b_.v + cross(b_.w, row_.vector(CAIRN_FIELD(arm_b)))) -
+               (a_.v + cross(a_.w, row_.vector(CAIRN_FIELD(arm_a))));
+    }
+
+    // Changes both bodies by the impulse f at c and a turning impulse.
+    void push(const V& f, const V& turning) {
+        if constexpr (Special) {
+            a_.v = a_.v - multiply(row_.vector(CAIRN_FIELD(masses_a)), f);
+            b_.v = b_.v + multiply(row_.vector(CAIRN_FIELD(masses_b)), f);
+        } else {
+            a_.v = a_.v - row_.number(CAIRN_FIELD(mass_a)) * f;
+            b_.v = b_.v + row_.number(CAIRN_FIELD(mass_b)) * f;
+        }
+        const V on_a = cross(row_.vector(CAIRN_FIELD(arm_a)), f) + turning;
+        const V on_b = cross(row_.vector(CAIRN_FIELD(arm_b)), f) + turning;
+        a_.w = a_.w - row_.tensor(CAIRN_FIELD(inertia_a)) * on_a;
+        b_.w = b_.w + row_.tensor(CAIRN_FIELD(inertia_b)) * on_b;
+    }
+
+    // The points of a manifold to and fro on U; `next` gives a point's load from (point, mass,
+    // speed, load).
+    template <class Next>
+    void solve_normals(Next&& next) {
+        const V v = relative_velocity();
+        const V spin = b_.w - a_.w;
+        F u0 = dot(n_, v);
+        F u1 = dot(t1_, spin);
+        F u2 = dot(t2_, spin);
+        F load, about_1, about_2;
+        const F k00 = row_.number(CAIRN_FIELD(k00));
+        if constexpr (P == 1) {
+            const F before = row_.number(CAIRN_FIELD(normal));
+            const F l = next(0, row_.number(CAIRN_FIELD(mass)), u0, before);
+            row_.set(CAIRN_FIELD(normal), l);
+            load = l - before;
+        } else {
+            const F k01 = row_.number(CAIRN_FIELD(k01)), k02 = row_.number(CAIRN_FIELD(k02));
+            const F k11 = row_.number(CAIRN_FIELD(k11)), k12 = row_.number(CAIRN_FIELD(k12));
+            const F k22 = row_.number(CAIRN_FIELD(k22));
+            F l[P];
+            for (int i = 0; i < P; ++i) l[i] = row_.number(CAIRN_FIELD(normal), i);
+            const auto solve_point = [&](int i) {
+                const F x = row_.number(CAIRN_FIELD(x), i);
+                const F y = row_.number(CAIRN_FIELD(y), i);
+                const F sum =
+                    next(i, row_.number(CAIRN_FIELD(mass), i), u0 + y * u1 - x * u2, l[i]);
+                const F change = sum - l[i];
+                l[i] = sum;
+                const F m1 = y * change;
+                const F m2 = -(x * change);
+                load += change;
+                about_1 += m1;
+                about_2 += m2;
+                u0 += k00 * change + k01 * m1 + k02 * m2;
+                u1 += k01 * change + k11 * m1 + k12 * m2;
+                u2 += k02 * change + k12 * m1 + k22 * m2;
+            };
+            for (int round = 0; round < normal_rounds; ++round) {
+                for (int i = 0; i < P; ++i) solve_point(i);
+                for (int i = P; i-- > 0;) solve_point(i);
+            }
+            for (int i = 0; i < P; ++i) row_.set(CAIRN_FIELD(normal), l[i], i);
+        }
+        push(load * n_, about_1 * t1_ + about_2 * t2_);
+    }
+
+    V roll(F load, const V& spin) {
+        const F mass = row_.number(CAIRN_FIELD(rolling_mass));
+        const F before_1 = row_.number(CAIRN_FIELD(roll_1));
+        const F before_2 = row_.number(CAIRN_FIELD(roll_2));
+        F r1 = before_1 - mass * dot(t1_, spin);
+        F r2 = before_2 - mass * dot(t2_, spin);
+        const F limit = row_.number(CAIRN_FIELD(rolling_friction)) * load;
+        const F squared = r1 * r1 + r2 * r2;
+        const F shorter =
+            select(squared > limit * limit, limit / square_root(max(squared, F(1e-36f))), F(1));
+        r1 = shorter * r1;
+        r2 = shorter * r2;
+        row_.set(CAIRN_FIELD(roll_1), r1);
+        row_.set(CAIRN_FIELD(roll_2), r2);
+        return (r1 - before_1) * t1_ + (r2 - before_2) * t2_;
+    }
+
+    // R^-1 n - n = 2 (q x (q x n) - s q x n) for the turn (q, s).
+    V find_bend(const std::uint32_t* places, V& moved) const {
+        const float* from[W];
+        for (int lane = 0; lane < W; ++lane) from[lane] = &bodies_[places[lane]].displacement.x;
+        const FourLanes<W> d = gather_four<W>(from);
+        for (int lane = 0; lane < W; ++lane) from[lane] += 4;
+        const FourLanes<W> q = gather_four<W>(from);
+        moved = {d.x, d.y, d.z};
+        const V axis = {q.x, q.y, q.z};
+        const V t = cross(axis, n_);
+        return F(2) * (cross(axis, t) - q.w * t);
+    }
+
+    void add(std::size_t to, std::size_t from, int i = 0) {
+        row_.set(to, row_.number(to, i) + row_.number(from, i), i);
+    }
+
+    RowLanes<W> row_;
+    SoftBody* bodies_;
+    const std::uint32_t *read_a_, *read_b_, *write_a_, *write_b_;
+    V n_, t1_, t2_;
+    LaneVelocities<W> a_, b_;
+};
+
+template <int P, bool Special, int W>
+void warm_start_rows(const RowRange& range, SoftBody* bodies, const SoftPass&) {
+    for (std::size_t r = 0; r < range.count; ++r) {
+        RowPass<P, Special, W> row(range, r, bodies);
+        row.gather();
+        row.apply_all();
+        row.scatter();
+    }
+}
+
+template <int P, bool Special, int W>
+void solve_rows(const RowRange& range, SoftBody* bodies, const SoftPass& pass) {
+    for (std::size_t r = 0; r < range.count; ++r) {
+        RowPass<P, Special, W> row(range, r, bodies);
+        row.gather();
+        row.solve_soft(Lanes<W>(pass.inverse_h));
+        row.scatter();
+    }
+}
+
+template <int P, bool Special, int W>
+void measure_rows(const RowRange& range, SoftBody* bodies, const SoftPass&) {
+    for (std::size_t r = 0; r < range.count; ++r) {
+        RowPass<P, Special, W>(range, r, bodies).measure();
+    }
+}
+
+template <int P, bool Special, int W>
+void relax_rows(const RowRange& range, SoftBody* bodies, const SoftPass& pass) {
+    for (std::size_t r = 0; r < range.count; ++r) {
+        RowPass<P, Special, W> row(range, r, bodies);
+        row.measure();
+        row.gather();
+        row.solve_rigid(Lanes<W>(pass.inverse_h));
+        row.rub();
+        row.scatter();
+        if (pass.first) row.add_totals();
+    }
+}
+
+#undef CAIRN_FIELD
+
+template <int W>
+constexpr SoftKernels make_soft_kernels() {
+    return {W,
+            {warm_start_rows<1, false, W>, warm_start_rows<4, false, W>,
+             warm_start_rows<1, true, W>, warm_start_rows<4, true, W>},
+            {solve_rows<1, false, W>, solve_rows<4, false, W>, solve_rows<1, true, W>,
+             solve_rows<4, true, W>},
+            {measure_rows<1, false, W>, measure_rows<4, false, W>, measure_rows<1, true, W>,
+             measure_rows<4, true, W>},
+            {relax_rows<1, false, W>, relax_rows<4, false, W>, relax_rows<1, true, W>,
+             relax_rows<4, true, W>}};
+}
+
+}  // namespace cairn

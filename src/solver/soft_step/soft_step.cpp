@@ -1,0 +1,184 @@
+// Soft step; see soft_step.h.
+
+#include "solver/soft_step/soft_step.h"
+
+#include "integrate/integrate.h"
+
+namespace cairn {
+
+namespace {
+
+// Sweeps of a substep, each followed by its share of the way. A contact's stiffness grows with the
+// square of their number; three hold a pyramid of forty layers and a house of cards.
+constexpr int parts_a_substep = 3;
+// Radians that a body may turn before its contacts are anchored anew: their arms then point that
+// much aside, and what they do to its spin is off by as much.
+constexpr float farthest_turn = 0.1f;
+
+}  // namespace
+
+void SoftStep::advance(const StepProblem& problem) {
+    const SoftKernels& kernels = find_soft_kernels(problem.lanes);
+    const auto h = float(problem.dt / problem.substeps);
+    const float part = h / float(parts_a_substep);
+    load_bodies(problem);
+    anchor(problem, h);
+    choose_bouncing(problem);
+    take_warm_start(problem, kernels);
+    for (int substep = 0; substep < problem.substeps; ++substep) {
+        if (has_turned_far()) anchor_anew(problem, h);
+        resolve_impacts(problem, h);
+        integrate_velocities(problem, h);
+        for (int k = 0; k < parts_a_substep; ++k) {
+            exact_.solve(part, true, responses_, bodies_, rows_);
+            for (int i = 0; i < problem.iterations; ++i) run(kernels.solve, {1.0f / part, false});
+            if (k == 0) integrate_poses(problem, h, false);
+            integrate_poses(problem, part, true);
+            if (!exact_.empty()) {
+                run(kernels.measure, {});
+                exact_.solve(part, false, responses_, bodies_, rows_);
+            }
+            for (int i = 0; i < problem.iterations; ++i) {
+                const bool last = k + 1 == parts_a_substep && i + 1 == problem.iterations;
+                run(kernels.relax, {1.0f / part, last});
+            }
+        }
+        hold_impulses(problem);
+    }
+    rows_.store(problem, h);
+    rows_.remember_loads(problem);
+    store_bodies(problem);
+}
+
+// Contacts as they are at the bodies' present poses, in rows.
+void SoftStep::anchor(const StepProblem& problem, float h) {
+    find_responses(problem, responses_);
+    for (const std::uint32_t i : problem.moving) {
+        courses_[i].anchored_rotation = problem.motions[i].rotation;
+        courses_[i].anchored_displacement = problem.motions[i].displacement;
+        bodies_[i].displacement = {};
+        bodies_[i].turn = {};
+    }
+    const int width = find_soft_kernels(problem.lanes).width;
+    rows_.build(problem, responses_, h, h / float(parts_a_substep), width);
+    exact_.prepare(problem, responses_, rows_);
+}
+
+void SoftStep::anchor_anew(const StepProblem& problem, float h) {
+    rows_.store(problem, h);
+    anchor(problem, h);
+}
+
+bool SoftStep::has_turned_far() const {
+    for (std::size_t i = 0; i < courses_.size(); ++i) {
+        if (!courses_[i].has_arms) continue;
+        const Quat& q = bodies_[i].turn;
+        const float sine = square(q.x) + square(q.y) + square(q.z);
+        if (sine > square(0.5f * farthest_turn)) return true;
+    }
+    return false;
+}
+
+void SoftStep::take_warm_start(const StepProblem& problem, const SoftKernels& kernels) {
+    run(kernels.warm_start, {});
+    hold_impulses(problem);
+    // The first substep adds them with its forces.
+    for (const std::uint32_t i : problem.moving) {
+        bodies_[i].v = courses_[i].free_v;
+        bodies_[i].w = courses_[i].free_w;
+    }
+}
+
+void SoftStep::load_bodies(const StepProblem& problem) {
+    const std::size_t count = problem.motions.size();
+    bodies_.assign(count + 2, {});
+    courses_.assign(count, {});
+    for (const std::uint32_t i : problem.moving) {
+        const BodyMotion& motion = problem.motions[i];
+        bodies_[i].v = courses_[i].free_v = motion.linear_velocity;
+        bodies_[i].w = courses_[i].free_w = motion.angular_velocity;
+    }
+    for (const std::uint32_t index : problem.active) {
+        const Contact& contact = problem.contacts[index];
+        courses_[contact.body_a].touched = courses_[contact.body_b].touched = true;
+        // A ball's arms do not turn with it.
+        const float short_arm = 1e-3f * contact.size;
+        const Vec3 core_a = contact.points[0].arm_a.core, core_b = contact.points[0].arm_b.core;
+        if (length_squared(core_a) > square(short_arm)) courses_[contact.body_a].has_arms = true;
+        if (length_squared(core_b) > square(short_arm)) courses_[contact.body_b].has_arms = true;
+    }
+}
+
+void SoftStep::choose_bouncing(const StepProblem& problem) {
+    may_bounce_.clear();
+    for (const std::uint32_t index : problem.active) {
+        if (problem.contacts[index].restitution > 0) may_bounce_.push_back(index);
+    }
+    StepProblem some = problem;
+    some.active = may_bounce_;
+    prepare_rows(some, bouncing_);
+}
+
+void SoftStep::resolve_impacts(const StepProblem& problem, float h) {
+    if (bouncing_.empty()) return;
+    store_bodies(problem);
+    find_responses(problem, impact_responses_);
+    refresh_rows(problem, impact_responses_, bouncing_);
+    impacts_.resolve(problem, impact_responses_, bouncing_, h);
+    for (const std::uint32_t i : problem.moving) {
+        bodies_[i].v = problem.motions[i].linear_velocity;
+        bodies_[i].w = problem.motions[i].angular_velocity;
+    }
+}
+
+void SoftStep::integrate_velocities(const StepProblem& problem, float h) {
+    for (const std::uint32_t i : problem.moving) {
+        SoftBody& body = bodies_[i];
+        Course& course = courses_[i];
+        BodyMotion motion = {.linear_velocity = body.v, .angular_velocity = body.w};
+        integrate_velocity(motion, problem.inertias[i], problem.drives[i], responses_[i],
+                           problem.gravity, h);
+        course.free_v = motion.linear_velocity;
+        course.free_w = motion.angular_velocity;
+        body.v = course.free_v + course.held_v;
+        body.w = course.free_w + course.held_w;
+    }
+}
+
+void SoftStep::integrate_poses(const StepProblem& problem, float h, bool touched) {
+    for (const std::uint32_t i : problem.moving) {
+        if (courses_[i].touched != touched) continue;
+        SoftBody& body = bodies_[i];
+        BodyMotion& motion = problem.motions[i];
+        motion.linear_velocity = body.v;
+        motion.angular_velocity = body.w;
+        integrate_pose(motion, problem.inertias[i], problem.drives[i], h);
+        body.displacement = motion.displacement - courses_[i].anchored_displacement;
+        body.turn = motion.rotation * conjugate(courses_[i].anchored_rotation);
+        // A tumbling body's turn changes w too, which no contact did.
+        courses_[i].free_w += motion.angular_velocity - body.w;
+        body.w = motion.angular_velocity;
+    }
+}
+
+void SoftStep::run(const SoftKernels::Kernel (&kernels)[row_kind_count], const SoftPass& pass) {
+    for (const SoftRows::Batch& batch : rows_.batches()) {
+        kernels[std::size_t(batch.kind)](rows_.range(batch), bodies_.data(), pass);
+    }
+}
+
+void SoftStep::hold_impulses(const StepProblem& problem) {
+    for (const std::uint32_t i : problem.moving) {
+        courses_[i].held_v = bodies_[i].v - courses_[i].free_v;
+        courses_[i].held_w = bodies_[i].w - courses_[i].free_w;
+    }
+}
+
+void SoftStep::store_bodies(const StepProblem& problem) {
+    for (const std::uint32_t i : problem.moving) {
+        problem.motions[i].linear_velocity = bodies_[i].v;
+        problem.motions[i].angular_velocity = bodies_[i].w;
+    }
+}
+
+}  // namespace cairn

@@ -1,0 +1,79 @@
+#pragma once
+// Soft step: small substeps, in each of which contacts are first springs, then rigid.
+//
+// One substep of length h:
+//   impacts      bounces, before any force acts (solver/impact.h)
+//   velocities   v += h a, w += h I^-1 torque, and the impulses of the last substep once more
+// and then, in several parts, each with its share of the way:
+//   exact loads  for columns, whose loads pass through many contacts (exact_loads.h): before each
+//                of the two sweeps, as soft or as rigid as that
+//   solve        one sweep over the normals as stiff, heavily damped springs, which also push
+//                overlaps out; a spring gives way only to what exceeds the load that its contact
+//                remembers, so what rests does not sag
+//   poses        x += (its share of h) v, free rotation; bodies that meet nothing go all at once
+//   relax        one sweep with rigid normals and without a push, which takes out the speed that
+//                the springs gave; then friction, once a manifold, knowing the final load
+//
+// All contacts of a colour are solved side by side, in lanes; the rows are built once a step, and
+// once more at a substep's beginning when a body has turned far from how they know it. Since
+// arms and normals stay for a step, the impulses of one substep act on a body as one change of its
+// velocity, so warm starting the next costs a sum a body and no sweep.
+//
+// Sources: Macklin et al., "Small Steps in Physics Simulation", SCA 2019; Catto, "Solver2D", 2024,
+// whose soft contacts these are. Departures: the remembered load (an augmented Lagrangian's
+// multiplier beside the penalty), exact loads, manifolds as rigid frames (soft_row.h), friction
+// on a sphere with the twist, restitution apart and first.
+
+#include <vector>
+
+#include "solver/contact_rows.h"
+#include "solver/impact.h"
+#include "solver/soft_step/build_rows.h"
+#include "solver/soft_step/exact_loads.h"
+
+namespace cairn {
+
+class SoftStep {
+public:
+    static constexpr int default_substeps = 4;
+    static constexpr int default_iterations = 1;
+
+    void advance(const StepProblem& problem);
+
+private:
+    void load_bodies(const StepProblem& problem);
+    void choose_bouncing(const StepProblem& problem);
+    void take_warm_start(const StepProblem& problem, const SoftKernels& kernels);
+    bool has_turned_far() const;
+    void anchor(const StepProblem& problem, float h);
+    void anchor_anew(const StepProblem& problem, float h);
+    void resolve_impacts(const StepProblem& problem, float h);
+    void integrate_velocities(const StepProblem& problem, float h);
+    void integrate_poses(const StepProblem& problem, float h, bool touched);
+    void run(const SoftKernels::Kernel (&kernels)[row_kind_count], const SoftPass& pass);
+    void hold_impulses(const StepProblem& problem);
+    void store_bodies(const StepProblem& problem);
+
+    // What a body is beside its SoftBody.
+    struct Course {
+        Vec3 free_v, free_w;  // what the substep would have come to without contacts
+        Vec3 held_v, held_w;  // what the last substep's contacts changed
+        // Where it was when its contacts were anchored.
+        Quat anchored_rotation;
+        Vec3 anchored_displacement;
+        bool touched = false;   // in some contact: goes its way in parts
+        bool has_arms = false;  // in a contact that turns with it
+    };
+
+    std::vector<SoftBody> bodies_;  // and two more: see SoftRows::build
+    std::vector<Course> courses_;
+    std::vector<Response> responses_;
+    SoftRows rows_;
+    ExactLoads exact_;
+    std::vector<std::uint32_t> may_bounce_;  // as StepProblem::active
+    std::vector<ContactRows> bouncing_;
+    std::vector<Response> impact_responses_;
+    ImpactSolver impacts_;
+};
+
+}  // namespace cairn
