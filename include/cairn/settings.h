@@ -22,17 +22,19 @@ enum class NarrowPhase : std::uint8_t {
 
 /// How pairs are found.
 enum class BroadPhase : std::uint8_t {
+    Tree,        ///< trees of fat boxes, looked up only for what has left its box
     BruteForce,  ///< every box against every other: the reference
 };
 
 struct StepSettings {
     Solver solver = Solver::SoftStep;
-    int substeps = 0;  ///< 1 to 1000; 0: the solver's own default (soft step 4, sequential impulses
-                       ///< 1, XPBD 20)
-    int iterations =
-        0;  ///< 1 to 1000; 0: the solver's own default (sequential impulses 10, the others 1)
+    /// 1 to 1000; 0: the solver's own default (soft step 4, sequential impulses 1, XPBD 20).
+    int substeps = 0;
+    /// 1 to 1000; 0: the solver's own default (sequential impulses 10, the others 1).
+    int iterations = 0;
     NarrowPhase narrow_phase = NarrowPhase::Sat;
-    BroadPhase broad_phase = BroadPhase::BruteForce;
+    /// Never changes a result.
+    BroadPhase broad_phase = BroadPhase::Tree;
     float contact_compliance = 0;  ///< XPBD only: how much a contact gives, m/N, >= 0
     /// Soft step only: at most so many contacts side by side, 1 to 1024; 0: as many as the
     /// processor can. Never changes a result.

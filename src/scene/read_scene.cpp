@@ -30,8 +30,9 @@ constexpr Word<Solver> solver_words[] = {{"soft-step", Solver::SoftStep},
                                          {"xpbd", Solver::Xpbd}};
 constexpr Word<NarrowPhase> narrow_phase_words[] = {{"sat", NarrowPhase::Sat},
                                                     {"gjk-epa", NarrowPhase::GjkEpa}};
-constexpr Word<BroadPhase> broad_phase_words[] = {{"brute-force", BroadPhase::BruteForce}};
-constexpr std::string_view later_words[] = {"avbd", "tree"};
+constexpr Word<BroadPhase> broad_phase_words[] = {{"tree", BroadPhase::Tree},
+                                                  {"brute-force", BroadPhase::BruteForce}};
+constexpr std::string_view later_words[] = {"avbd"};
 
 template <class Value, std::size_t N>
 std::string_view find_word(const Word<Value> (&words)[N], Value value) {
@@ -312,7 +313,7 @@ Result<NarrowPhase> parse_narrow_phase(std::string_view word) {
     return parse_word(narrow_phase_words, word, "");
 }
 Result<BroadPhase> parse_broad_phase(std::string_view word) {
-    return parse_word(broad_phase_words, word, "tree");
+    return parse_word(broad_phase_words, word, "");
 }
 
 Result<Scene> read_scene(std::string_view text) {

@@ -2,6 +2,9 @@
 
 #include "world/detect.h"
 
+#include <algorithm>
+#include <iterator>
+
 #include "contact/build_manifold.h"
 #include "narrow/find_axis.h"
 #include "shape/bounds.h"
@@ -13,6 +16,8 @@ namespace {
 // A contact is kept while its surfaces are this near, as a share of the smaller shape, so that one
 // which trembles keeps its impulses.
 constexpr float skin_share = 0.01f;
+// Room in a fat box, as a share of the shape: more of it makes more pairs, less more updates.
+constexpr float fat_share = 0.1f;
 
 bool agree(const CollisionFilter& a, const CollisionFilter& b) {
     if (a.group == b.group && a.group != 0) return a.group > 0;
@@ -53,6 +58,48 @@ Arm make_arm(const WorldState& world, const ShapeRecord& shape, Vec3 point) {
     return {center, point - rotate(rotation, center)};
 }
 
+bool may_touch(const WorldState& world, const Pair& pair) {
+    const std::uint32_t a = world.shapes[pair.a].body;
+    const std::uint32_t b = world.shapes[pair.b].body;
+    // Kinematic bodies have nothing to say to what cannot move either.
+    const bool can_push = world.inertias[a].inverse_mass > 0 || world.inertias[b].inverse_mass > 0;
+    return a != b && can_push && agree(world.bodies[a].filter, world.bodies[b].filter);
+}
+
+// The box with room for some steps more.
+Aabb fatten(const WorldState& world, const Proxy& proxy, float dt) {
+    if (!proxy.moves) return proxy.box;
+    const ShapeRecord& shape = world.shapes[proxy.id];
+    const float speed = length(world.motions[shape.body].linear_velocity);
+    const float room = fat_share * shape.size + dt * speed;
+    const Vec3 margin = {room, room, room};
+    return {proxy.box.lower - margin, proxy.box.upper + margin};
+}
+
+// Brings the tree to the shapes that there are.
+void update_tree(WorldState& world, float dt, std::span<const Proxy> proxies) {
+    auto& added = world.scratch.new_proxies;
+    added.clear();
+    std::uint32_t next = 0;
+    const auto remove_until = [&](std::uint32_t end) {
+        for (; next < end; ++next) world.tree.remove(next);
+        ++next;
+    };
+    for (const Proxy& proxy : proxies) {
+        remove_until(proxy.id);
+        if (!world.tree.is_there(proxy.id)) {
+            added.push_back({fatten(world, proxy, dt), proxy.id, proxy.moves});
+            continue;
+        }
+        if (world.tree.moves(proxy.id) != proxy.moves) {
+            world.tree.set_moves(proxy.id, proxy.moves);
+        }
+        world.tree.update(proxy.id, proxy.box, fatten(world, proxy, dt));
+    }
+    remove_until(std::uint32_t(world.shapes.size()));
+    world.tree.insert_many(added);
+}
+
 }  // namespace
 
 void update_proxies(const WorldState& world, double dt, std::vector<Proxy>& proxies) {
@@ -79,17 +126,34 @@ void update_proxies(const WorldState& world, double dt, std::vector<Proxy>& prox
     }
 }
 
-void find_candidate_pairs(const WorldState& world, BruteForce& broad,
-                          std::span<const Proxy> proxies, std::vector<Pair>& pairs) {
+void find_all_pairs(const WorldState& world, BruteForce& broad, std::span<const Proxy> proxies,
+                    std::vector<Pair>& pairs) {
     broad.find_pairs(proxies, pairs);
-    std::erase_if(pairs, [&](const Pair& pair) {
-        const std::uint32_t a = world.shapes[pair.a].body;
-        const std::uint32_t b = world.shapes[pair.b].body;
-        // Kinematic bodies have nothing to say to what cannot move either.
-        const bool can_push =
-            world.inertias[a].inverse_mass > 0 || world.inertias[b].inverse_mass > 0;
-        return a == b || !can_push || !agree(world.bodies[a].filter, world.bodies[b].filter);
-    });
+    std::erase_if(pairs, [&](const Pair& pair) { return !may_touch(world, pair); });
+}
+
+void find_tree_pairs(WorldState& world, double dt, std::span<const Proxy> proxies,
+                     std::vector<Pair>& pairs) {
+    update_tree(world, float(dt), proxies);
+    WorldState::Scratch& scratch = world.scratch;
+    world.tree.find_new_pairs(scratch.found_pairs);
+    std::erase_if(world.fat_pairs,
+                  [&](const Pair& pair) { return !world.tree.make_pair(pair.a, pair.b); });
+    // A pair is told again when one of its two has left its box.
+    scratch.merged_pairs.clear();
+    std::set_union(world.fat_pairs.begin(), world.fat_pairs.end(), scratch.found_pairs.begin(),
+                   scratch.found_pairs.end(), std::back_inserter(scratch.merged_pairs));
+    world.fat_pairs.swap(scratch.merged_pairs);
+
+    auto& places = scratch.proxy_places;
+    places.resize(world.shapes.size());
+    for (std::size_t i = 0; i < proxies.size(); ++i) places[proxies[i].id] = std::uint32_t(i);
+    pairs.clear();
+    for (const Pair& pair : world.fat_pairs) {
+        const Proxy& a = proxies[places[pair.a]];
+        const Proxy& b = proxies[places[pair.b]];
+        if (overlaps(a.box, b.box) && may_touch(world, pair)) pairs.push_back(pair);
+    }
 }
 
 void describe_contact(const WorldState& world, Contact& contact) {

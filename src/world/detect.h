@@ -9,9 +9,12 @@ namespace cairn {
 // One proxy a living shape: its box, grown by what the shape may reach in dt seconds.
 void update_proxies(const WorldState& world, double dt, std::vector<Proxy>& proxies);
 
-// The pairs of shapes that may touch: boxes overlap, bodies differ, filters agree. Sorted.
-void find_candidate_pairs(const WorldState& world, BruteForce& broad,
-                          std::span<const Proxy> proxies, std::vector<Pair>& pairs);
+// The pairs of shapes that may touch: boxes overlap, bodies differ, filters agree. Sorted, and the
+// same whichever broad phase finds them: the tree's pairs of fat boxes are put to the same test.
+void find_all_pairs(const WorldState& world, BruteForce& broad, std::span<const Proxy> proxies,
+                    std::vector<Pair>& pairs);
+void find_tree_pairs(WorldState& world, double dt, std::span<const Proxy> proxies,
+                     std::vector<Pair>& pairs);
 
 // Who meets, and what their surfaces do together.
 void describe_contact(const WorldState& world, Contact& contact);

@@ -90,7 +90,7 @@ std::vector<ContactReport> World::contacts() const {
     std::vector<ContactReport> reports;
     update_proxies(world, world.last_dt, proxies);
     BruteForce broad;
-    find_candidate_pairs(world, broad, proxies, pairs);
+    find_all_pairs(world, broad, proxies, pairs);
     for (const Pair& pair : pairs) {
         Contact contact;
         contact.shape_a = pair.a;

@@ -128,7 +128,12 @@ void apply_changes(WorldState& world, double dt) {
 void find_pairs(WorldState& world, double dt) {
     const StageTimer timer(world, Stage::FindPairs);
     update_proxies(world, dt, world.scratch.proxies);
-    find_candidate_pairs(world, world.scratch.broad, world.scratch.proxies, world.scratch.pairs);
+    WorldState::Scratch& scratch = world.scratch;
+    if (world.settings.step.broad_phase == BroadPhase::Tree) {
+        find_tree_pairs(world, dt, scratch.proxies, scratch.pairs);
+    } else {
+        find_all_pairs(world, scratch.broad, scratch.proxies, scratch.pairs);
+    }
     world.contacts.begin_renewal();
     for (const Pair& pair : world.scratch.pairs) {
         const std::uint32_t slot = world.contacts.renew(pair.a, pair.b);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "broad/brute_force.h"
+#include "broad/tree_pairs.h"
 #include "cairn/world.h"
 #include "constraint/step_problem.h"
 #include "contact/contact_store.h"
@@ -57,6 +58,9 @@ struct WorldState {
     std::vector<ShapeRecord> shapes;  // by shape slot
     std::vector<std::uint32_t> free_shapes;
 
+    TreePairs tree;               // fat boxes, by shape slot
+    std::vector<Pair> fat_pairs;  // all pairs among them, sorted
+
     ContactStore contacts;
 
     StepReport report;
@@ -68,7 +72,9 @@ struct WorldState {
     struct Scratch {
         std::vector<Proxy> proxies;
         BruteForce broad;
-        std::vector<Pair> pairs;
+        std::vector<Pair> pairs, found_pairs, merged_pairs;
+        std::vector<Proxy> new_proxies;
+        std::vector<std::uint32_t> proxy_places;  // by shape slot
         std::vector<std::uint32_t> moving;
         std::vector<std::uint32_t> active;
         std::vector<BodyMotion> before;

@@ -195,7 +195,7 @@ TEST_CASE("bad usage is refused with status 2 and one line") {
     check_refused("run drop --dt 0", "--dt");
     check_refused("run drop --solver avbd", "not yet supported");
     check_refused("run drop --solver magic", "soft-step, sequential-impulse, xpbd");
-    check_refused("run drop --broad-phase tree", "not yet supported");
+    check_refused("run drop --broad-phase bush", "tree, brute-force");
     check_refused("run drop --narrow-phase mpr", "sat, gjk-epa");
     check_refused("run drop --substeps 0", "1 to 1000");
     check_refused("run drop --threads 0", "--threads");

@@ -39,7 +39,7 @@ TEST_CASE("absent keys mean the format's defaults") {
     CHECK(scene.world.restitution_threshold == 1);
     CHECK(scene.world.step.solver == Solver::SoftStep);
     CHECK(scene.world.step.narrow_phase == NarrowPhase::Sat);
-    CHECK(scene.world.step.broad_phase == BroadPhase::BruteForce);
+    CHECK(scene.world.step.broad_phase == BroadPhase::Tree);
     CHECK(scene.sleeping);
     CHECK(scene.continuous);
     CHECK(scene.camera.eye == Vec3{8, 5, 8});
