@@ -22,6 +22,8 @@ constexpr std::size_t most_points = 1024;
 // The share of K's diagonal that is added to it.
 constexpr double evenness = 1e-6;
 constexpr int most_exchanges = 12;
+// Shares of the largest load and the fastest closing that count as none.
+constexpr double rounding = 1e-9;
 
 }  // namespace
 
@@ -56,6 +58,7 @@ void ExactLoads::prepare(const StepProblem& problem, std::span<const Response> r
     factor_.resize(matrix_.size());
     load_.resize(touches_.size());
     before_.resize(touches_.size());
+    product_.resize(touches_.size());
 }
 
 void ExactLoads::solve(float h, bool pushes, std::span<const Response> responses,
@@ -181,9 +184,12 @@ void ExactLoads::order_island(const StepProblem& problem, std::uint32_t first_bo
 bool ExactLoads::calls_for_it(const StepProblem& problem) const {
     const Vec3 up = normalize_or(-problem.gravity, {});
     bool is_uneven = false;
+    std::size_t points = 0;
     for (const std::uint32_t k : island_) {
         const Contact& c = problem.contacts[problem.active[k]];
         if (absolute(dot(c.normal, up)) < steep) return false;
+        points += std::size_t(c.point_count);
+        if (points > most_points) return false;
         const float a = problem.inertias[c.body_a].mass;
         const float b = problem.inertias[c.body_b].mass;
         is_uneven = is_uneven || (a > 0 && b > 0 && (a > uneven * b || b > uneven * a));
@@ -247,7 +253,6 @@ void ExactLoads::list_touches(const StepProblem& problem, SoftRows& rows) {
 
 bool ExactLoads::fill(std::span<const Response> responses, std::size_t begin) {
     const std::size_t end = touches_.size();
-    if (end - begin > most_points) return false;
     const auto pushed = [&](std::uint32_t b) { return responses[b].inverse_mass != Vec3{}; };
     std::size_t work = 0;
     // Contacts were reached in order: the first that a row meets shares a pushed body with it.
@@ -302,20 +307,22 @@ void ExactLoads::measure(float h, bool pushes, std::span<const SoftBody> bodies,
         before_[i] = double(array[t.normal]);
         t.speed = double(dot(t.n, b.v - a.v) + dot(t.turn_b, b.w) - dot(t.turn_a, a.w) + bias);
     }
-    for (std::size_t i = island.begin; i < island.end; ++i) {
-        touches_[i].speed -= apply_matrix(island, i, before_);
-    }
+    take_product(island, before_);
+    for (std::size_t i = island.begin; i < island.end; ++i) touches_[i].speed -= product_[i];
 }
 
-double ExactLoads::apply_matrix(const Island& island, std::size_t i,
-                                std::span<const double> x) const {
-    double sum = 0;
-    const double* row = row_of(matrix_, i);
-    for (std::size_t j = first_[i]; j <= i; ++j) sum += row[j] * x[j];
-    for (std::size_t j = i + 1; j < island.end; ++j) {
-        if (first_[j] <= i) sum += row_of(matrix_, j)[i] * x[j];
+void ExactLoads::take_product(const Island& island, std::span<const double> x) {
+    std::fill(product_.begin() + std::ptrdiff_t(island.begin),
+              product_.begin() + std::ptrdiff_t(island.end), 0.0);
+    for (std::size_t i = island.begin; i < island.end; ++i) {
+        const double* row = row_of(matrix_, i);
+        double sum = row[i] * x[i];
+        for (std::size_t j = first_[i]; j < i; ++j) {
+            sum += row[j] * x[j];
+            product_[j] += row[j] * x[i];
+        }
+        product_[i] += sum;
     }
-    return sum;
 }
 
 void ExactLoads::factor(const Island& island) {
@@ -359,16 +366,20 @@ void ExactLoads::substitute(const Island& island) {
 }
 
 bool ExactLoads::exchange(const Island& island) {
-    double largest = 0;
-    for (std::size_t i = island.begin; i < island.end; ++i) largest = std::max(largest, load_[i]);
+    take_product(island, load_);
+    double largest = 0, fastest = 0;
+    for (std::size_t i = island.begin; i < island.end; ++i) {
+        largest = std::max(largest, load_[i]);
+        fastest = std::max(fastest, std::abs(touches_[i].speed));
+    }
     bool changed = false;
     for (std::size_t i = island.begin; i < island.end; ++i) {
         Touch& t = touches_[i];
         const bool was = t.active;
         if (was) {
-            t.active = load_[i] >= -1e-9 * largest;
+            t.active = load_[i] >= -rounding * largest;
         } else {
-            t.active = t.speed + apply_matrix(island, i, load_) < -1e-9;
+            t.active = t.speed + product_[i] < -rounding * fastest;
         }
         changed = changed || was != t.active;
     }

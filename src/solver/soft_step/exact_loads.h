@@ -65,7 +65,8 @@ private:
     void factor(const Island& island);
     void substitute(const Island& island);
     bool exchange(const Island& island);
-    double apply_matrix(const Island& island, std::size_t i, std::span<const double> x) const;
+    // product_ = K x over the island.
+    void take_product(const Island& island, std::span<const double> x);
     double* row_of(std::vector<double>& m, std::size_t i) {
         return m.data() + (row_[i] - first_[i]);
     }
@@ -82,7 +83,7 @@ private:
     std::vector<std::uint32_t> first_;  // by row: the first column that is not zero
     std::vector<std::size_t> row_;      // by row: where it begins in the matrix
     std::vector<Island> islands_;
-    std::vector<double> matrix_, factor_, load_, before_;
+    std::vector<double> matrix_, factor_, load_, before_, product_;
 };
 
 }  // namespace cairn
