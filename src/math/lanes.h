@@ -112,15 +112,18 @@ struct FourLanes {
     Lanes<W> x, y, z, w;
 };
 
-#define CAIRN_TURN_FOUR(a, b, c, d)                            \
-    const Four t0 = __builtin_shufflevector(a, b, 0, 4, 1, 5); \
-    const Four t1 = __builtin_shufflevector(c, d, 0, 4, 1, 5); \
-    const Four t2 = __builtin_shufflevector(a, b, 2, 6, 3, 7); \
-    const Four t3 = __builtin_shufflevector(c, d, 2, 6, 3, 7); \
-    a = __builtin_shufflevector(t0, t1, 0, 1, 4, 5);           \
-    b = __builtin_shufflevector(t0, t1, 2, 3, 6, 7);           \
-    c = __builtin_shufflevector(t2, t3, 0, 1, 4, 5);           \
-    d = __builtin_shufflevector(t2, t3, 2, 3, 6, 7)
+// Rows of a 4x4 block become its columns. (By W too, so that each width's file has its own.)
+template <int W, class Four>
+inline void turn_four(Four& a, Four& b, Four& c, Four& d) {
+    const Four t0 = __builtin_shufflevector(a, b, 0, 4, 1, 5);
+    const Four t1 = __builtin_shufflevector(c, d, 0, 4, 1, 5);
+    const Four t2 = __builtin_shufflevector(a, b, 2, 6, 3, 7);
+    const Four t3 = __builtin_shufflevector(c, d, 2, 6, 3, 7);
+    a = __builtin_shufflevector(t0, t1, 0, 1, 4, 5);
+    b = __builtin_shufflevector(t0, t1, 2, 3, 6, 7);
+    c = __builtin_shufflevector(t2, t3, 0, 1, 4, 5);
+    d = __builtin_shufflevector(t2, t3, 2, 3, 6, 7);
+}
 
 template <int W>
 inline FourLanes<W> gather_four(const float* const (&from)[W]) {
@@ -133,7 +136,7 @@ inline FourLanes<W> gather_four(const float* const (&from)[W]) {
             Four b = *reinterpret_cast<const Loose*>(from[base + 1]);
             Four c = *reinterpret_cast<const Loose*>(from[base + 2]);
             Four d = *reinterpret_cast<const Loose*>(from[base + 3]);
-            CAIRN_TURN_FOUR(a, b, c, d);
+            turn_four<W>(a, b, c, d);
             for (int k = 0; k < 4; ++k) {
                 out.x.v[base + k] = a[k];
                 out.y.v[base + k] = b[k];
@@ -165,7 +168,7 @@ inline void scatter_four(const FourLanes<W>& in, float* const (&to)[W]) {
                 c[k] = in.z.v[base + k];
                 d[k] = in.w.v[base + k];
             }
-            CAIRN_TURN_FOUR(a, b, c, d);
+            turn_four<W>(a, b, c, d);
             *reinterpret_cast<Loose*>(to[base]) = a;
             *reinterpret_cast<Loose*>(to[base + 1]) = b;
             *reinterpret_cast<Loose*>(to[base + 2]) = c;
@@ -180,8 +183,6 @@ inline void scatter_four(const FourLanes<W>& in, float* const (&to)[W]) {
         }
     }
 }
-
-#undef CAIRN_TURN_FOUR
 
 }  // namespace kernel
 }  // namespace cairn
