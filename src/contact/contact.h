@@ -25,7 +25,7 @@ inline Vec3 find_arm(const Arm& arm, Quat rotation) {
 
 struct ContactPoint {
     Arm arm_a, arm_b;      // to the same place in the world, halfway between the surfaces
-    float separation = 0;  // m at the step's start
+    float separation = 0;  // m at the step's start; a method may leave the one at its end
     std::uint32_t feature = 0;
     // What the solver found last, as forces (N), so that a change of the step's length changes
     // nothing: where the next step begins.
