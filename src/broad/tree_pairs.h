@@ -13,6 +13,7 @@
 //
 // A value: a copy is complete. All that it does follows from the sequence of calls.
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -89,10 +90,10 @@ private:
     void search_node(const BoxNode& node, bool moves, std::vector<Pair>& pairs) const;
     void search_endless(std::uint32_t id, std::vector<Pair>& pairs) const;
 
-    BoxTree trees_[2];                       // of what stands still, of what moves
-    std::vector<std::uint32_t> endless_[2];  // likewise
-    std::vector<Aabb> boxes_;                // by id
-    std::vector<std::uint8_t> states_;       // by id
+    std::array<BoxTree, 2> trees_;                       // of what stands still, of what moves
+    std::array<std::vector<std::uint32_t>, 2> endless_;  // likewise
+    std::vector<Aabb> boxes_;                            // by id
+    std::vector<std::uint8_t> states_;                   // by id
     std::vector<std::uint32_t> marked_;
     std::vector<Search> searches_;
     std::vector<Pair> sorting_;
