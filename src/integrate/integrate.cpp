@@ -67,6 +67,11 @@ void free_rotation(Quat& rotation, Vec3& angular_velocity, const SymmetricMat3& 
     angular_velocity = rotate(rotation, spin);
 }
 
+bool tumbles(const BodyInertia& inertia, const BodyDrive& drive) {
+    const bool turns_freely = !drive.lock.rx && !drive.lock.ry && !drive.lock.rz;
+    return inertia.inverse_mass > 0 && drive.gyroscopic && !inertia.isotropic && turns_freely;
+}
+
 void integrate_velocity(BodyMotion& motion, const BodyInertia& inertia, const BodyDrive& drive,
                         const Response& response, Vec3 gravity, float h) {
     if (inertia.inverse_mass == 0) return;
@@ -87,8 +92,7 @@ void integrate_pose(BodyMotion& motion, const BodyInertia& inertia, const BodyDr
                     float h) {
     motion.displacement += h * motion.linear_velocity;
     if (motion.angular_velocity == Vec3{}) return;
-    const bool turns_freely = !drive.lock.rx && !drive.lock.ry && !drive.lock.rz;
-    if (inertia.inverse_mass > 0 && drive.gyroscopic && !inertia.isotropic && turns_freely) {
+    if (tumbles(inertia, drive)) {
         free_rotation(motion.rotation, motion.angular_velocity, inertia.inertia,
                       inertia.inverse_inertia, h);
     } else {

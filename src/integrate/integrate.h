@@ -22,6 +22,9 @@ void integrate_pose(BodyMotion& motion, const BodyInertia& inertia, const BodyDr
 // Turns `rotation` by the small rotation vector theta, world frame.
 Quat turn(Quat rotation, Vec3 theta);
 
+// Whether free rotation changes the body's angular velocity.
+bool tumbles(const BodyInertia& inertia, const BodyDrive& drive);
+
 // Torque-free rotation over h seconds. With W the angular velocity in the body frame, Wm the mean
 // of its values before and after, and exp(h Wm) the turn that the body makes:
 //

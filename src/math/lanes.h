@@ -7,6 +7,11 @@
 // is used by one source file alone, which may be compiled for more than the oldest processor.
 
 #include <cstdint>
+#include <utility>
+
+#if defined(__SSE2__)
+#include <immintrin.h>
+#endif
 
 #include "cairn/types.h"
 
@@ -48,6 +53,23 @@ struct Lanes {
     friend Choice operator>(Lanes a, Lanes b) { return a.v > b.v; }
 };
 
+/// Whether it is so in any lane: never to decide what a lane's own result is.
+template <int W>
+inline bool any(typename LaneTypes<W>::Choice choice) {
+#if defined(__AVX512F__)
+    if constexpr (W == 16) return _mm512_test_epi32_mask(__m512i(choice), __m512i(choice)) != 0;
+#endif
+#if defined(__AVX__)
+    if constexpr (W == 8) return _mm256_movemask_ps(__m256(choice)) != 0;
+#endif
+#if defined(__SSE2__)
+    if constexpr (W == 4) return _mm_movemask_ps(__m128(choice)) != 0;
+#endif
+    std::int32_t found = 0;
+    for (int lane = 0; lane < W; ++lane) found |= choice[lane];
+    return found != 0;
+}
+
 /// a where the choice is so, b elsewhere.
 template <int W>
 inline Lanes<W> select(typename Lanes<W>::Choice choice, Lanes<W> a, Lanes<W> b) {
@@ -63,6 +85,16 @@ inline Lanes<W> max(Lanes<W> a, Lanes<W> b) {
 }
 template <int W>
 inline Lanes<W> square_root(Lanes<W> a) {
+    // Compilers take the loop at the end lane by lane; every machine rounds a root alike.
+#if defined(__AVX512F__)
+    if constexpr (W == 16) return Lanes<W>(_mm512_mask_sqrt_ps(a.v, 0xffff, a.v));
+#endif
+#if defined(__AVX__)
+    if constexpr (W == 8) return Lanes<W>(_mm256_sqrt_ps(a.v));
+#endif
+#if defined(__SSE2__)
+    if constexpr (W == 4) return Lanes<W>(_mm_sqrt_ps(a.v));
+#endif
     Lanes<W> root;
     for (int lane = 0; lane < W; ++lane) root.v[lane] = __builtin_sqrtf(a.v[lane]);
     return root;
@@ -112,38 +144,74 @@ struct FourLanes {
     Lanes<W> x, y, z, w;
 };
 
-// Rows of a 4x4 block become its columns. (By W too, so that each width's file has its own.)
-template <int W, class Four>
-inline void turn_four(Four& a, Four& b, Four& c, Four& d) {
-    const Four t0 = __builtin_shufflevector(a, b, 0, 4, 1, 5);
-    const Four t1 = __builtin_shufflevector(c, d, 0, 4, 1, 5);
-    const Four t2 = __builtin_shufflevector(a, b, 2, 6, 3, 7);
-    const Four t3 = __builtin_shufflevector(c, d, 2, 6, 3, 7);
-    a = __builtin_shufflevector(t0, t1, 0, 1, 4, 5);
-    b = __builtin_shufflevector(t0, t1, 2, 3, 6, 7);
-    c = __builtin_shufflevector(t2, t3, 0, 1, 4, 5);
-    d = __builtin_shufflevector(t2, t3, 2, 3, 6, 7);
+// One vector after the other.
+template <int W, int... I>
+inline typename LaneTypes<2 * W>::Float join(typename LaneTypes<W>::Float a,
+                                             typename LaneTypes<W>::Float b,
+                                             std::integer_sequence<int, I...>) {
+    return __builtin_shufflevector(a, b, I...);
+}
+
+// Four numbers of every fourth record from `first` on.
+template <int W, int Part = W>
+inline typename LaneTypes<Part>::Float load_fours(const float* const (&from)[W], int first) {
+    if constexpr (Part == 4) {
+        return *reinterpret_cast<const typename LaneTypes<4>::Loose*>(from[first]);
+    } else {
+        return join<Part / 2>(load_fours<W, Part / 2>(from, first),
+                              load_fours<W, Part / 2>(from, first + Part / 2),
+                              std::make_integer_sequence<int, Part>{});
+    }
+}
+
+// The other way.
+template <int W, int... Quad>
+inline void store_fours(typename LaneTypes<W>::Float v, float* const (&to)[W], int first,
+                        std::integer_sequence<int, Quad...>) {
+    ((*reinterpret_cast<typename LaneTypes<4>::Loose*>(to[first + 4 * Quad]) =
+          __builtin_shufflevector(v, v, 4 * Quad, 4 * Quad + 1, 4 * Quad + 2, 4 * Quad + 3)),
+     ...);
+}
+
+// Within every four numbers, in turn of a and b: their first two, or their last two, mixed.
+template <int W, int... I>
+inline void mix_singles(typename LaneTypes<W>::Float& a, typename LaneTypes<W>::Float& b,
+                        std::integer_sequence<int, I...>) {
+    const auto low = __builtin_shufflevector(a, b, (I / 4 * 4 + I % 4 / 2 + I % 2 * W)...);
+    b = __builtin_shufflevector(a, b, (I / 4 * 4 + 2 + I % 4 / 2 + I % 2 * W)...);
+    a = low;
+}
+template <int W, int... I>
+inline void mix_couples(typename LaneTypes<W>::Float& a, typename LaneTypes<W>::Float& b,
+                        std::integer_sequence<int, I...>) {
+    const auto low = __builtin_shufflevector(a, b, (I / 4 * 4 + I % 2 + I % 4 / 2 * W)...);
+    b = __builtin_shufflevector(a, b, (I / 4 * 4 + 2 + I % 2 + I % 4 / 2 * W)...);
+    a = low;
+}
+
+// Rows of every 4x4 block become its columns.
+template <int W>
+inline void turn_fours(typename LaneTypes<W>::Float& a, typename LaneTypes<W>::Float& b,
+                       typename LaneTypes<W>::Float& c, typename LaneTypes<W>::Float& d) {
+    constexpr std::make_integer_sequence<int, W> all;
+    mix_singles<W>(a, b, all);  // a0 b0 a1 b1, a2 b2 a3 b3
+    mix_singles<W>(c, d, all);
+    mix_couples<W>(a, c, all);  // a0 b0 c0 d0, a1 b1 c1 d1
+    mix_couples<W>(b, d, all);
+    const auto second = c;
+    c = b;
+    b = second;
 }
 
 template <int W>
 inline FourLanes<W> gather_four(const float* const (&from)[W]) {
     FourLanes<W> out;
     if constexpr (W % 4 == 0) {
-        using Four = typename Lanes<4>::Vector;
-        using Loose = typename Lanes<4>::Loose;
-        for (int base = 0; base < W; base += 4) {
-            Four a = *reinterpret_cast<const Loose*>(from[base]);
-            Four b = *reinterpret_cast<const Loose*>(from[base + 1]);
-            Four c = *reinterpret_cast<const Loose*>(from[base + 2]);
-            Four d = *reinterpret_cast<const Loose*>(from[base + 3]);
-            turn_four<W>(a, b, c, d);
-            for (int k = 0; k < 4; ++k) {
-                out.x.v[base + k] = a[k];
-                out.y.v[base + k] = b[k];
-                out.z.v[base + k] = c[k];
-                out.w.v[base + k] = d[k];
-            }
-        }
+        out.x.v = load_fours<W>(from, 0);
+        out.y.v = load_fours<W>(from, 1);
+        out.z.v = load_fours<W>(from, 2);
+        out.w.v = load_fours<W>(from, 3);
+        turn_fours<W>(out.x.v, out.y.v, out.z.v, out.w.v);
     } else {
         for (int lane = 0; lane < W; ++lane) {
             out.x.v[lane] = from[lane][0];
@@ -156,24 +224,14 @@ inline FourLanes<W> gather_four(const float* const (&from)[W]) {
 }
 
 template <int W>
-inline void scatter_four(const FourLanes<W>& in, float* const (&to)[W]) {
+inline void scatter_four(FourLanes<W> in, float* const (&to)[W]) {
     if constexpr (W % 4 == 0) {
-        using Four = typename Lanes<4>::Vector;
-        using Loose = typename Lanes<4>::Loose;
-        for (int base = 0; base < W; base += 4) {
-            Four a, b, c, d;
-            for (int k = 0; k < 4; ++k) {
-                a[k] = in.x.v[base + k];
-                b[k] = in.y.v[base + k];
-                c[k] = in.z.v[base + k];
-                d[k] = in.w.v[base + k];
-            }
-            turn_four<W>(a, b, c, d);
-            *reinterpret_cast<Loose*>(to[base]) = a;
-            *reinterpret_cast<Loose*>(to[base + 1]) = b;
-            *reinterpret_cast<Loose*>(to[base + 2]) = c;
-            *reinterpret_cast<Loose*>(to[base + 3]) = d;
-        }
+        turn_fours<W>(in.x.v, in.y.v, in.z.v, in.w.v);
+        constexpr std::make_integer_sequence<int, W / 4> quads;
+        store_fours<W>(in.x.v, to, 0, quads);
+        store_fours<W>(in.y.v, to, 1, quads);
+        store_fours<W>(in.z.v, to, 2, quads);
+        store_fours<W>(in.w.v, to, 3, quads);
     } else {
         for (int lane = 0; lane < W; ++lane) {
             to[lane][0] = in.x.v[lane];

@@ -63,6 +63,16 @@ inline Quat exponential_map(Vec3 theta) {
     return {float(s * x), float(s * y), float(s * z), float(c)};
 }
 
+/// The shorter rotation vector whose exponential the unit quaternion is.
+inline Vec3 logarithm(Quat q) {
+    const double x = q.x, y = q.y, z = q.z;
+    const double sine = square_root(x * x + y * y + z * z);
+    if (sine == 0) return {};
+    const double sign = q.w < 0 ? -1 : 1;
+    const double scale = sign * 2 * exact_arc_tangent2(sine, sign * double(q.w)) / sine;
+    return {float(scale * x), float(scale * y), float(scale * z)};
+}
+
 /// a's frame, then b within it.
 constexpr Pose operator*(const Pose& a, const Pose& b) {
     return {a.position + rotate(a.rotation, b.position), a.rotation * b.rotation};

@@ -30,6 +30,8 @@ struct SoftKernels {
     Kernel solve[row_kind_count];
     Kernel measure[row_kind_count];
     Kernel relax[row_kind_count];
+    // soft_poses.h; the number of bodies is a multiple of the width.
+    void (*move_bodies)(SoftBody* bodies, const std::uint32_t* places, std::size_t count, float h);
 };
 
 // The widest kernels of 1, 4, 8 or 16 lanes that this machine runs and that are no wider than

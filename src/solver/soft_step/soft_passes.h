@@ -21,6 +21,7 @@
 
 #include "math/lanes.h"
 #include "solver/soft_step/soft_kernels.h"
+#include "solver/soft_step/soft_poses.h"
 
 namespace cairn {
 
@@ -157,31 +158,34 @@ public:
         const F impulse_scale = row_.number(CAIRN_FIELD(impulse_scale));
         const F slowest = -row_.number(CAIRN_FIELD(push_speed));
         const F slop = row_.number(CAIRN_FIELD(slop));
-        F bias[P], scale[P], leak[P];
+        F answer[P], pushed[P], leak[P];
         for (int i = 0; i < P; ++i) {
             const F s = row_.number(CAIRN_FIELD(separation), i);
+            const F mass = row_.number(CAIRN_FIELD(mass), i);
             const auto open = s > F(0);
-            bias[i] = select(open, s * inverse_h, max(bias_rate * min(s + slop, F(0)), slowest));
-            scale[i] = select(open, F(1), mass_scale);
+            const F bias =
+                select(open, s * inverse_h, max(bias_rate * min(s + slop, F(0)), slowest));
+            answer[i] = mass * select(open, F(1), mass_scale);
+            pushed[i] = mass * bias;
             leak[i] = select(open, F(0), impulse_scale);
         }
-        solve_normals([&](int i, F mass, F u, F l) {
-            return max(l - mass * (scale[i] * u + bias[i]) -
-                           leak[i] * (l - row_.number(CAIRN_FIELD(remembered), i)),
-                       F(0));
+        solve_normals([&](int i, F u, F l) {
+            const F kept = l - leak[i] * (l - row_.number(CAIRN_FIELD(remembered), i));
+            return max((kept - pushed[i]) - answer[i] * u, F(0));
         });
     }
 
     void solve_rigid(F inverse_h) {
-        F bias[P], most[P];
+        F answer[P], pushed[P], most[P];
         for (int i = 0; i < P; ++i) {
             const F s = row_.number(CAIRN_FIELD(separation), i);
-            bias[i] = max(s, F(0)) * inverse_h;
+            answer[i] = row_.number(CAIRN_FIELD(mass), i);
+            pushed[i] = answer[i] * (max(s, F(0)) * inverse_h);
             // What is open has yet to close: that is the next substep's to meet.
             most[i] = select(s > F(0), row_.number(CAIRN_FIELD(normal), i), F(1e30f));
         }
-        solve_normals([&](int i, F mass, F u, F l) {
-            return min(max(l - mass * (u + bias[i]), F(0)), most[i]);
+        solve_normals([&](int i, F u, F l) {
+            return min(max((l - pushed[i]) - answer[i] * u, F(0)), most[i]);
         });
     }
 
@@ -198,36 +202,29 @@ public:
         const F rho = hold / max(limit, F(1e-30f));
         const F inverse_rho = F(1) / max(rho, F(1e-15f));
         const F twist_mass = row_.number(CAIRN_FIELD(twist_mass));
-        // Bodies that cannot twist at all leave the step to the sliding.
-        const F by_twist =
-            select(twist_mass > F(0), twist_mass * (inverse_rho * inverse_rho), F(1e30f));
-        const F mass = min(row_.number(CAIRN_FIELD(tangent_mass)), by_twist);
-        const F k_11 = row_.number(CAIRN_FIELD(k_11));
-        const F k_12 = row_.number(CAIRN_FIELD(k_12));
-        const F k_22 = row_.number(CAIRN_FIELD(k_22));
-        const F k_33 = rho * rho / max(twist_mass, F(1e-30f));
-        F v1 = dot(t1_, v) + row_.number(CAIRN_FIELD(slide_1));
-        F v2 = dot(t2_, v) + row_.number(CAIRN_FIELD(slide_2));
-        F v3 = rho * dot(n_, spin);
+        const F i_11 = row_.number(CAIRN_FIELD(i_11));
+        const F i_12 = row_.number(CAIRN_FIELD(i_12));
+        const F i_22 = row_.number(CAIRN_FIELD(i_22));
+        const F v1 = dot(t1_, v) + row_.number(CAIRN_FIELD(slide_1));
+        const F v2 = dot(t2_, v) + row_.number(CAIRN_FIELD(slide_2));
+        const F spin_n = dot(n_, spin);
         const F before_1 = row_.number(CAIRN_FIELD(friction_1));
         const F before_2 = row_.number(CAIRN_FIELD(friction_2));
         const F twist = row_.number(CAIRN_FIELD(twist));
         // Where nothing holds a twist, none is carried on.
-        F f1 = before_1, f2 = before_2, f3 = select(rho > F(1e-15f), twist * inverse_rho, F(0));
-        for (int round = 0; round < friction_rounds; ++round) {
-            F g1 = f1 - mass * v1, g2 = f2 - mass * v2, g3 = f3 - mass * v3;
-            const F squared = g1 * g1 + g2 * g2 + g3 * g3;
-            const F shorter =
-                select(squared > limit * limit, limit / square_root(max(squared, F(1e-36f))), F(1));
-            g1 = shorter * g1;
-            g2 = shorter * g2;
-            g3 = shorter * g3;
-            v1 += k_11 * (g1 - f1) + k_12 * (g2 - f2);
-            v2 += k_12 * (g1 - f1) + k_22 * (g2 - f2);
-            v3 += k_33 * (g3 - f3);
-            f1 = g1;
-            f2 = g2;
-            f3 = g3;
+        const auto holds_twist = rho > F(1e-15f);
+        const F before_3 = select(holds_twist, twist * inverse_rho, F(0));
+        // What sticks stops at once.
+        F f1 = before_1 - (i_11 * v1 + i_12 * v2);
+        F f2 = before_2 - (i_12 * v1 + i_22 * v2);
+        F f3 = select(holds_twist, (twist - twist_mass * spin_n) * inverse_rho, F(0));
+        const auto slides = f1 * f1 + f2 * f2 + f3 * f3 > limit * limit;
+        if (any<W>(slides)) {
+            Sliding sliding = {v1, v2, rho * spin_n, before_1, before_2, before_3};
+            slide(sliding, limit, rho, inverse_rho);
+            f1 = select(slides, sliding.f1, f1);
+            f2 = select(slides, sliding.f2, f2);
+            f3 = select(slides, sliding.f3, f3);
         }
         row_.set(CAIRN_FIELD(friction_1), f1);
         row_.set(CAIRN_FIELD(friction_2), f2);
@@ -254,6 +251,39 @@ private:
                (a_.v + cross(a_.w, row_.vector(CAIRN_FIELD(arm_a))));
     }
 
+    struct Sliding {
+        F v1, v2, v3;  // speeds, and impulses, along t1, t2 and about n at the lever rho
+        F f1, f2, f3;
+    };
+
+    // Rounds of one step against the motion, each cut back to what the load can hold.
+    void slide(Sliding& at, F limit, F rho, F inverse_rho) const {
+        const F k_11 = row_.number(CAIRN_FIELD(k_11));
+        const F k_12 = row_.number(CAIRN_FIELD(k_12));
+        const F k_22 = row_.number(CAIRN_FIELD(k_22));
+        const F twist_mass = row_.number(CAIRN_FIELD(twist_mass));
+        const F k_33 = rho * rho / max(twist_mass, F(1e-30f));
+        // Bodies that cannot twist at all leave the step to the sliding.
+        const F by_twist =
+            select(twist_mass > F(0), twist_mass * (inverse_rho * inverse_rho), F(1e30f));
+        const F mass = min(row_.number(CAIRN_FIELD(tangent_mass)), by_twist);
+        for (int round = 0; round < friction_rounds; ++round) {
+            F g1 = at.f1 - mass * at.v1, g2 = at.f2 - mass * at.v2, g3 = at.f3 - mass * at.v3;
+            const F squared = g1 * g1 + g2 * g2 + g3 * g3;
+            const F shorter =
+                select(squared > limit * limit, limit / square_root(max(squared, F(1e-36f))), F(1));
+            g1 = shorter * g1;
+            g2 = shorter * g2;
+            g3 = shorter * g3;
+            at.v1 += k_11 * (g1 - at.f1) + k_12 * (g2 - at.f2);
+            at.v2 += k_12 * (g1 - at.f1) + k_22 * (g2 - at.f2);
+            at.v3 += k_33 * (g3 - at.f3);
+            at.f1 = g1;
+            at.f2 = g2;
+            at.f3 = g3;
+        }
+    }
+
     // Changes both bodies by the impulse f at c and a turning impulse.
     void push(const V& f, const V& turning) {
         if constexpr (Special) {
@@ -269,51 +299,61 @@ private:
         b_.w = b_.w + row_.tensor(CAIRN_FIELD(inertia_b)) * on_b;
     }
 
-    // The points of a manifold to and fro on U; `next` gives a point's load from (point, mass,
-    // speed, load).
+    // The points of a manifold to and fro; `next` gives a point's load from (point, speed, load).
+    // One that comes twice in a row is as it should be and is left out the second time. From load
+    // to load it is a chain of five operations: how each load changes each speed is worked out
+    // beforehand.
     template <class Next>
     void solve_normals(Next&& next) {
         const V v = relative_velocity();
         const V spin = b_.w - a_.w;
-        F u0 = dot(n_, v);
-        F u1 = dot(t1_, spin);
-        F u2 = dot(t2_, spin);
-        F load, about_1, about_2;
-        const F k00 = row_.number(CAIRN_FIELD(k00));
+        const F u0 = dot(n_, v);
         if constexpr (P == 1) {
             const F before = row_.number(CAIRN_FIELD(normal));
-            const F l = next(0, row_.number(CAIRN_FIELD(mass)), u0, before);
+            const F l = next(0, u0, before);
             row_.set(CAIRN_FIELD(normal), l);
-            load = l - before;
+            push((l - before) * n_, V{});
         } else {
+            const F u1 = dot(t1_, spin);
+            const F u2 = dot(t2_, spin);
+            const F k00 = row_.number(CAIRN_FIELD(k00));
             const F k01 = row_.number(CAIRN_FIELD(k01)), k02 = row_.number(CAIRN_FIELD(k02));
             const F k11 = row_.number(CAIRN_FIELD(k11)), k12 = row_.number(CAIRN_FIELD(k12));
             const F k22 = row_.number(CAIRN_FIELD(k22));
-            F l[P];
-            for (int i = 0; i < P; ++i) l[i] = row_.number(CAIRN_FIELD(normal), i);
-            const auto solve_point = [&](int i) {
-                const F x = row_.number(CAIRN_FIELD(x), i);
-                const F y = row_.number(CAIRN_FIELD(y), i);
-                const F sum =
-                    next(i, row_.number(CAIRN_FIELD(mass), i), u0 + y * u1 - x * u2, l[i]);
-                const F change = sum - l[i];
-                l[i] = sum;
-                const F m1 = y * change;
-                const F m2 = -(x * change);
-                load += change;
-                about_1 += m1;
-                about_2 += m2;
-                u0 += k00 * change + k01 * m1 + k02 * m2;
-                u1 += k01 * change + k11 * m1 + k12 * m2;
-                u2 += k02 * change + k12 * m1 + k22 * m2;
-            };
-            for (int round = 0; round < normal_rounds; ++round) {
-                for (int i = 0; i < P; ++i) solve_point(i);
-                for (int i = P; i-- > 0;) solve_point(i);
+            F x[P], y[P], u[P], l[P], coupling[P][P];
+            for (int i = 0; i < P; ++i) {
+                x[i] = row_.number(CAIRN_FIELD(x), i);
+                y[i] = row_.number(CAIRN_FIELD(y), i);
+                u[i] = u0 + y[i] * u1 - x[i] * u2;
+                l[i] = row_.number(CAIRN_FIELD(normal), i);
+                const F q0 = k00 + k01 * y[i] - k02 * x[i];
+                const F q1 = k01 + k11 * y[i] - k12 * x[i];
+                const F q2 = k02 + k12 * y[i] - k22 * x[i];
+                for (int j = 0; j <= i; ++j) {
+                    coupling[i][j] = coupling[j][i] = q0 + q1 * y[j] - q2 * x[j];
+                }
             }
-            for (int i = 0; i < P; ++i) row_.set(CAIRN_FIELD(normal), l[i], i);
+            const auto solve_point = [&](int i) {
+                const F before = l[i];
+                l[i] = next(i, u[i], before);
+                const F change = l[i] - before;
+                for (int j = 0; j < P; ++j) u[j] += coupling[i][j] * change;
+            };
+            solve_point(0);
+            for (int round = 0; round < normal_rounds; ++round) {
+                for (int i = 1; i < P; ++i) solve_point(i);
+                for (int i = P - 1; i-- > 0;) solve_point(i);
+            }
+            F load, about_1, about_2;
+            for (int i = 0; i < P; ++i) {
+                const F change = l[i] - row_.number(CAIRN_FIELD(normal), i);
+                row_.set(CAIRN_FIELD(normal), l[i], i);
+                load += change;
+                about_1 += y[i] * change;
+                about_2 -= x[i] * change;
+            }
+            push(load * n_, about_1 * t1_ + about_2 * t2_);
         }
-        push(load * n_, about_1 * t1_ + about_2 * t2_);
     }
 
     V roll(F load, const V& spin) {
@@ -409,7 +449,8 @@ constexpr SoftKernels make_soft_kernels() {
             {measure_rows<1, false, W>, measure_rows<4, false, W>, measure_rows<1, true, W>,
              measure_rows<4, true, W>},
             {relax_rows<1, false, W>, relax_rows<4, false, W>, relax_rows<1, true, W>,
-             relax_rows<4, true, W>}};
+             relax_rows<4, true, W>},
+            move_bodies<W>};
 }
 
 }  // namespace cairn

@@ -11,6 +11,8 @@ namespace {
 // Sweeps of a substep, each followed by its share of the way. A contact's stiffness grows with the
 // square of their number; three hold a pyramid of forty layers and a house of cards.
 constexpr int parts_a_substep = 3;
+// Bodies are moved in groups of at most so many.
+constexpr std::size_t widest = 16;
 // Radians that a body may turn before its contacts are anchored anew: their arms then point that
 // much aside, and what they do to its spin is off by as much.
 constexpr float farthest_turn = 0.1f;
@@ -32,8 +34,7 @@ void SoftStep::advance(const StepProblem& problem) {
         for (int k = 0; k < parts_a_substep; ++k) {
             exact_.solve(part, true, responses_, bodies_, rows_);
             for (int i = 0; i < problem.iterations; ++i) run(kernels.solve, {1.0f / part, false});
-            if (k == 0) integrate_poses(problem, h, false);
-            integrate_poses(problem, part, true);
+            kernels.move_bodies(bodies_.data(), touched_.data(), touched_.size(), part);
             if (!exact_.empty()) {
                 run(kernels.measure, {});
                 exact_.solve(part, false, responses_, bodies_, rows_);
@@ -43,8 +44,10 @@ void SoftStep::advance(const StepProblem& problem) {
                 run(kernels.relax, {1.0f / part, last});
             }
         }
+        move_untouched(problem, h);
         hold_impulses(problem);
     }
+    store_poses(problem);
     rows_.store(problem, h);
     rows_.remember_loads(problem);
     store_bodies(problem);
@@ -65,6 +68,7 @@ void SoftStep::anchor(const StepProblem& problem, float h) {
 }
 
 void SoftStep::anchor_anew(const StepProblem& problem, float h) {
+    store_poses(problem);
     rows_.store(problem, h);
     anchor(problem, h);
 }
@@ -107,6 +111,15 @@ void SoftStep::load_bodies(const StepProblem& problem) {
         if (length_squared(core_a) > square(short_arm)) courses_[contact.body_a].has_arms = true;
         if (length_squared(core_b) > square(short_arm)) courses_[contact.body_b].has_arms = true;
     }
+    touched_.clear();
+    untouched_.clear();
+    for (const std::uint32_t i : problem.moving) {
+        (courses_[i].touched ? touched_ : untouched_).push_back(i);
+        courses_[i].tumbles =
+            courses_[i].touched && tumbles(problem.inertias[i], problem.drives[i]);
+    }
+    const auto nowhere = std::uint32_t(count + 1);
+    while (touched_.size() % widest != 0) touched_.push_back(nowhere);
 }
 
 void SoftStep::choose_bouncing(const StepProblem& problem) {
@@ -122,6 +135,7 @@ void SoftStep::choose_bouncing(const StepProblem& problem) {
 void SoftStep::resolve_impacts(const StepProblem& problem, float h) {
     if (bouncing_.empty()) return;
     store_bodies(problem);
+    store_poses(problem);
     find_responses(problem, impact_responses_);
     refresh_rows(problem, impact_responses_, bouncing_);
     impacts_.resolve(problem, impact_responses_, bouncing_, h);
@@ -138,26 +152,44 @@ void SoftStep::integrate_velocities(const StepProblem& problem, float h) {
         BodyMotion motion = {.linear_velocity = body.v, .angular_velocity = body.w};
         integrate_velocity(motion, problem.inertias[i], problem.drives[i], responses_[i],
                            problem.gravity, h);
+        Vec3 w = motion.angular_velocity;
+        if (course.tumbles) w = find_tumble(problem, i, motion.angular_velocity, h);
+        course.tumble_rest = motion.angular_velocity - w;
         course.free_v = motion.linear_velocity;
         course.free_w = motion.angular_velocity;
         body.v = course.free_v + course.held_v;
-        body.w = course.free_w + course.held_w;
+        body.w = w + course.held_w;
     }
 }
 
-void SoftStep::integrate_poses(const StepProblem& problem, float h, bool touched) {
-    for (const std::uint32_t i : problem.moving) {
-        if (courses_[i].touched != touched) continue;
-        SoftBody& body = bodies_[i];
+// What free rotation over h makes of w; returns the steady angular velocity that turns the body as
+// far.
+Vec3 SoftStep::find_tumble(const StepProblem& problem, std::uint32_t body, Vec3& w, float h) const {
+    if (w == Vec3{}) return {};
+    const Quat before = normalize(bodies_[body].turn * courses_[body].anchored_rotation);
+    Quat after = before;
+    const BodyInertia& inertia = problem.inertias[body];
+    free_rotation(after, w, inertia.inertia, inertia.inverse_inertia, h);
+    return (1.0f / h) * logarithm(after * conjugate(before));
+}
+
+void SoftStep::move_untouched(const StepProblem& problem, float h) {
+    for (const std::uint32_t i : untouched_) {
         BodyMotion& motion = problem.motions[i];
-        motion.linear_velocity = body.v;
-        motion.angular_velocity = body.w;
+        motion.linear_velocity = bodies_[i].v;
+        motion.angular_velocity = bodies_[i].w;
         integrate_pose(motion, problem.inertias[i], problem.drives[i], h);
-        body.displacement = motion.displacement - courses_[i].anchored_displacement;
-        body.turn = motion.rotation * conjugate(courses_[i].anchored_rotation);
-        // A tumbling body's turn changes w too, which no contact did.
-        courses_[i].free_w += motion.angular_velocity - body.w;
-        body.w = motion.angular_velocity;
+        bodies_[i].w = courses_[i].free_w = motion.angular_velocity;
+    }
+}
+
+void SoftStep::store_poses(const StepProblem& problem) {
+    for (const std::uint32_t i : problem.moving) {
+        const Course& course = courses_[i];
+        if (!course.touched) continue;
+        BodyMotion& motion = problem.motions[i];
+        motion.displacement = course.anchored_displacement + bodies_[i].displacement;
+        motion.rotation = normalize(bodies_[i].turn * course.anchored_rotation);
     }
 }
 
@@ -169,6 +201,8 @@ void SoftStep::run(const SoftKernels::Kernel (&kernels)[row_kind_count], const S
 
 void SoftStep::hold_impulses(const StepProblem& problem) {
     for (const std::uint32_t i : problem.moving) {
+        bodies_[i].w += courses_[i].tumble_rest;
+        courses_[i].tumble_rest = {};
         courses_[i].held_v = bodies_[i].v - courses_[i].free_v;
         courses_[i].held_w = bodies_[i].w - courses_[i].free_w;
     }

@@ -3,14 +3,16 @@
 //
 // One substep of length h:
 //   impacts      bounces, before any force acts (solver/impact.h)
-//   velocities   v += h a, w += h I^-1 torque, and the impulses of the last substep once more
+//   velocities   v += h a, w += h I^-1 torque, what a tumbling body's spin makes of w, and the
+//                impulses of the last substep once more
 // and then, in several parts, each with its share of the way:
 //   exact loads  for columns, whose loads pass through many contacts (exact_loads.h): before each
 //                of the two sweeps, as soft or as rigid as that
 //   solve        one sweep over the normals as stiff, heavily damped springs, which also push
 //                overlaps out; a spring gives way only to what exceeds the load that its contact
 //                remembers, so what rests does not sag
-//   poses        x += (its share of h) v, free rotation; bodies that meet nothing go all at once
+//   poses        x += (its share of h) v, and likewise the turn; bodies that meet nothing go all
+//                at once and tumble as they go
 //   relax        one sweep with rigid normals and without a push, which takes out the speed that
 //                the springs gave; then friction, once a manifold, knowing the final load
 //
@@ -49,7 +51,9 @@ private:
     void anchor_anew(const StepProblem& problem, float h);
     void resolve_impacts(const StepProblem& problem, float h);
     void integrate_velocities(const StepProblem& problem, float h);
-    void integrate_poses(const StepProblem& problem, float h, bool touched);
+    Vec3 find_tumble(const StepProblem& problem, std::uint32_t body, Vec3& w, float h) const;
+    void move_untouched(const StepProblem& problem, float h);
+    void store_poses(const StepProblem& problem);
     void run(const SoftKernels::Kernel (&kernels)[row_kind_count], const SoftPass& pass);
     void hold_impulses(const StepProblem& problem);
     void store_bodies(const StepProblem& problem);
@@ -58,15 +62,19 @@ private:
     struct Course {
         Vec3 free_v, free_w;  // what the substep would have come to without contacts
         Vec3 held_v, held_w;  // what the last substep's contacts changed
+        Vec3 tumble_rest;     // what tumbling adds to w when the substep ends
         // Where it was when its contacts were anchored.
         Quat anchored_rotation;
         Vec3 anchored_displacement;
         bool touched = false;   // in some contact: goes its way in parts
+        bool tumbles = false;   // its own spin changes its angular velocity
         bool has_arms = false;  // in a contact that turns with it
     };
 
     std::vector<SoftBody> bodies_;  // and two more: see SoftRows::build
     std::vector<Course> courses_;
+    std::vector<std::uint32_t> touched_;    // padded to a multiple of every width
+    std::vector<std::uint32_t> untouched_;  // in no contact
     std::vector<Response> responses_;
     SoftRows rows_;
     ExactLoads exact_;
