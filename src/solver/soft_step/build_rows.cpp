@@ -27,9 +27,6 @@ constexpr float push_speed_share = 0.25f;
 // ... and where there is no gravity to measure by, than this share of the size a step.
 constexpr float push_share_a_step = 0.004f;
 
-// Directions that answer almost as one, which locked axes make, are not told apart.
-constexpr float singular_share = 1e-5f;
-
 struct Softness {
     float bias_rate = 0, mass_scale = 0, impulse_scale = 0;
 };
@@ -175,14 +172,6 @@ private:
         row_.k_12 = answer(t1, t2);
         row_.k_22 = answer(t2, t2);
         row_.tangent_mass = softest(row_.k_11, row_.k_12, row_.k_22);
-        const float determinant = row_.k_11 * row_.k_22 - row_.k_12 * row_.k_12;
-        if (determinant > singular_share * row_.k_11 * row_.k_22) {
-            row_.i_11 = row_.k_22 / determinant;
-            row_.i_12 = -row_.k_12 / determinant;
-            row_.i_22 = row_.k_11 / determinant;
-        } else {
-            row_.i_11 = row_.i_22 = row_.tangent_mass;
-        }
         Vec3 friction;
         float twist = contact_.spinning_torque;
         for (std::size_t i = 0; i < std::size_t(contact_.point_count); ++i) {

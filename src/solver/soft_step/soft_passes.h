@@ -202,30 +202,34 @@ public:
         const F rho = hold / max(limit, F(1e-30f));
         const F inverse_rho = F(1) / max(rho, F(1e-15f));
         const F twist_mass = row_.number(CAIRN_FIELD(twist_mass));
-        const F i_11 = row_.number(CAIRN_FIELD(i_11));
-        const F i_12 = row_.number(CAIRN_FIELD(i_12));
-        const F i_22 = row_.number(CAIRN_FIELD(i_22));
-        const F v1 = dot(t1_, v) + row_.number(CAIRN_FIELD(slide_1));
-        const F v2 = dot(t2_, v) + row_.number(CAIRN_FIELD(slide_2));
-        const F spin_n = dot(n_, spin);
+        // Bodies that cannot twist at all leave the step to the sliding.
+        const F by_twist =
+            select(twist_mass > F(0), twist_mass * (inverse_rho * inverse_rho), F(1e30f));
         const F before_1 = row_.number(CAIRN_FIELD(friction_1));
         const F before_2 = row_.number(CAIRN_FIELD(friction_2));
         const F twist = row_.number(CAIRN_FIELD(twist));
-        // Where nothing holds a twist, none is carried on.
-        const auto holds_twist = rho > F(1e-15f);
-        const F before_3 = select(holds_twist, twist * inverse_rho, F(0));
-        // What sticks stops at once.
-        F f1 = before_1 - (i_11 * v1 + i_12 * v2);
-        F f2 = before_2 - (i_12 * v1 + i_22 * v2);
-        F f3 = select(holds_twist, (twist - twist_mass * spin_n) * inverse_rho, F(0));
-        const auto slides = f1 * f1 + f2 * f2 + f3 * f3 > limit * limit;
+        const Rubbing before = {
+            .v1 = dot(t1_, v) + row_.number(CAIRN_FIELD(slide_1)),
+            .v2 = dot(t2_, v) + row_.number(CAIRN_FIELD(slide_2)),
+            .v3 = rho * dot(n_, spin),
+            .f1 = before_1,
+            .f2 = before_2,
+            // Where nothing holds a twist, none is carried on.
+            .f3 = select(rho > F(1e-15f), twist * inverse_rho, F(0)),
+            .mass = min(row_.number(CAIRN_FIELD(tangent_mass)), by_twist),
+            .k_33 = rho * rho / max(twist_mass, F(1e-30f)),
+        };
+        // Most stick: what is never cut back needs no root.
+        Rubbing after = before;
+        const auto slides = rub_rounds<false>(after, limit);
         if (any<W>(slides)) {
-            Sliding sliding = {v1, v2, rho * spin_n, before_1, before_2, before_3};
-            slide(sliding, limit, rho, inverse_rho);
-            f1 = select(slides, sliding.f1, f1);
-            f2 = select(slides, sliding.f2, f2);
-            f3 = select(slides, sliding.f3, f3);
+            Rubbing cut = before;
+            rub_rounds<true>(cut, limit);
+            after.f1 = select(slides, cut.f1, after.f1);
+            after.f2 = select(slides, cut.f2, after.f2);
+            after.f3 = select(slides, cut.f3, after.f3);
         }
+        const F f1 = after.f1, f2 = after.f2, f3 = after.f3;
         row_.set(CAIRN_FIELD(friction_1), f1);
         row_.set(CAIRN_FIELD(friction_2), f2);
         row_.set(CAIRN_FIELD(twist), rho * f3);
@@ -251,37 +255,43 @@ private:
                (a_.v + cross(a_.w, row_.vector(CAIRN_FIELD(arm_a))));
     }
 
-    struct Sliding {
-        F v1, v2, v3;  // speeds, and impulses, along t1, t2 and about n at the lever rho
+    // Speeds and impulses along t1, t2, and about n at the lever rho.
+    struct Rubbing {
+        F v1, v2, v3;
         F f1, f2, f3;
+        F mass, k_33;
     };
 
-    // Rounds of one step against the motion, each cut back to what the load can hold.
-    void slide(Sliding& at, F limit, F rho, F inverse_rho) const {
+    // Rounds of one step against the motion, each cut back to what the load can hold if CutBack;
+    // tells where it was, or would have to be.
+    template <bool CutBack>
+    auto rub_rounds(Rubbing& at, F limit) const {
         const F k_11 = row_.number(CAIRN_FIELD(k_11));
         const F k_12 = row_.number(CAIRN_FIELD(k_12));
         const F k_22 = row_.number(CAIRN_FIELD(k_22));
-        const F twist_mass = row_.number(CAIRN_FIELD(twist_mass));
-        const F k_33 = rho * rho / max(twist_mass, F(1e-30f));
-        // Bodies that cannot twist at all leave the step to the sliding.
-        const F by_twist =
-            select(twist_mass > F(0), twist_mass * (inverse_rho * inverse_rho), F(1e30f));
-        const F mass = min(row_.number(CAIRN_FIELD(tangent_mass)), by_twist);
+        typename F::Choice slides = {};
         for (int round = 0; round < friction_rounds; ++round) {
-            F g1 = at.f1 - mass * at.v1, g2 = at.f2 - mass * at.v2, g3 = at.f3 - mass * at.v3;
+            F g1 = at.f1 - at.mass * at.v1;
+            F g2 = at.f2 - at.mass * at.v2;
+            F g3 = at.f3 - at.mass * at.v3;
             const F squared = g1 * g1 + g2 * g2 + g3 * g3;
-            const F shorter =
-                select(squared > limit * limit, limit / square_root(max(squared, F(1e-36f))), F(1));
-            g1 = shorter * g1;
-            g2 = shorter * g2;
-            g3 = shorter * g3;
+            const auto is_longer = squared > limit * limit;
+            slides |= is_longer;
+            if constexpr (CutBack) {
+                const F shorter =
+                    select(is_longer, limit / square_root(max(squared, F(1e-36f))), F(1));
+                g1 = shorter * g1;
+                g2 = shorter * g2;
+                g3 = shorter * g3;
+            }
             at.v1 += k_11 * (g1 - at.f1) + k_12 * (g2 - at.f2);
             at.v2 += k_12 * (g1 - at.f1) + k_22 * (g2 - at.f2);
-            at.v3 += k_33 * (g3 - at.f3);
+            at.v3 += at.k_33 * (g3 - at.f3);
             at.f1 = g1;
             at.f2 = g2;
             at.f3 = g3;
         }
+        return slides;
     }
 
     // Changes both bodies by the impulse f at c and a turning impulse.

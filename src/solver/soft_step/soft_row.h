@@ -59,7 +59,6 @@ struct SoftRow {
     float friction = 0;
     float slide_1 = 0, slide_2 = 0;  // the surfaces' own velocity along t1, t2
     float tangent_mass = 0, k_11 = 0, k_12 = 0, k_22 = 0;
-    float i_11 = 0, i_12 = 0, i_22 = 0;  // the inverse of k
     float friction_1 = 0, friction_2 = 0;
     float friction_total_1 = 0, friction_total_2 = 0;
     float lever[P] = {};  // twist that a unit normal impulse at point i can hold
