@@ -35,6 +35,9 @@ struct StepSettings {
     NarrowPhase narrow_phase = NarrowPhase::Sat;
     /// Never changes a result.
     BroadPhase broad_phase = BroadPhase::Tree;
+    /// Whether contacts are carried along while their bodies hardly move against each other, rather
+    /// than found anew each step. Changes a result by rounding's order.
+    bool reuse_contacts = true;
     float contact_compliance = 0;  ///< XPBD only: how much a contact gives, m/N, >= 0
     /// Soft step only: at most so many contacts side by side, 1 to 1024; 0: as many as the
     /// processor can. Never changes a result.

@@ -1,13 +1,12 @@
 #pragma once
-// A contact: the persistent meeting of two shapes, from the step in which their boxes first overlap
-// to the step in which they part. Geometry is renewed every step; impulses live on, point by point,
-// by feature id.
+// A contact: the persistent meeting of two shapes, from the step in which they first come within
+// reach to the step in which they part. Geometry is renewed every step; impulses live on, point by
+// point, by feature id.
 
 #include <array>
 #include <cstdint>
 
 #include "math/quat.h"
-#include "narrow/axis.h"
 
 namespace cairn {
 
@@ -41,6 +40,13 @@ struct Contact {
     std::uint64_t key = 0;
     std::uint32_t shape_a = 0, shape_b = 0;
     std::uint32_t body_a = 0, body_b = 0;
+    int point_count = 0;
+    bool touching = false;                            // after the last step
+    bool conveys = false;                             // whether a surface has a velocity of its own
+    bool turns_with_a = false, turns_with_b = false;  // whether a body's turn moves the points
+    // Where the surfaces slide along each other within a step, the contact stays with this one's
+    // feature: the round shape's lowest point, the smaller shape's corner.
+    bool stays_with_a = false;
 
     // The two surfaces together.
     float friction = 0;
@@ -50,26 +56,21 @@ struct Contact {
     Vec3 surface_velocity;  // of B's surface less A's, world, beyond the bodies' own motion
     // The smaller of the shapes' smallest half extents: what lengths are measured by.
     float size = 0;
-    // Where the surfaces slide along each other within a step, the contact stays with this one's
-    // feature: the round shape's lowest point, the smaller shape's corner.
-    bool stays_with_a = false;
 
     Vec3 normal = {0, 1, 0};  // unit, from A to B, world
-    int point_count = 0;
-    std::array<ContactPoint, 4> points;
     // What the contact has long borne, N, normal: what rests on it need not press it first.
     float remembered_load = 0;
     Vec3 rolling_torque;        // N m on B, where the next step begins
     float spinning_torque = 0;  // N m on B about the normal
     Vec3 rolling_impulse;       // N m s on B over the last step
     float spinning_impulse = 0;
-
     // How deep the shapes overlapped when they met, m, as far as it is still borne.
     float first_overlap = 0;
 
-    Axis axis;  // the narrow phase's answer, in shape A's frame
-    AxisHint hint;
-    bool touching = false;  // after the last step
+    std::array<ContactPoint, 4> points;
 };
+
+// The points' impulses over the last step, and the contact's own, become zero.
+void clear_impulses(Contact& contact);
 
 }  // namespace cairn

@@ -2,32 +2,78 @@
 
 #include "contact/contact_store.h"
 
+#include <algorithm>
+
 namespace cairn {
 
+namespace {
+
+std::uint64_t key_of(const PairRecord& pair) { return pair_key(pair.shape_a, pair.shape_b); }
+
+}  // namespace
+
 void ContactStore::begin_renewal() {
-    previous_.swap(listed_);
-    listed_.clear();
+    previous_.swap(pairs_);
+    pairs_.clear();
+    ended_.clear();
+    place_ = 0;
 }
 
-std::uint32_t ContactStore::renew(std::uint32_t shape_a, std::uint32_t shape_b) {
+void ContactStore::renew(std::uint32_t shape_a, std::uint32_t shape_b) {
+    // Both lists ascend: one walk tells what stays, what is new and what is missing.
     const std::uint64_t key = pair_key(shape_a, shape_b);
-    std::uint32_t slot = table_.find(key);
-    if (slot == none) {
-        if (free_.empty()) {
-            slot = std::uint32_t(slots_.size());
-            slots_.emplace_back();
-        } else {
-            slot = free_.back();
-            free_.pop_back();
-            slots_[slot] = Contact{};
-        }
-        slots_[slot].key = key;
-        slots_[slot].shape_a = shape_a;
-        slots_[slot].shape_b = shape_b;
-        table_.insert(key, slot);
+    for (; place_ < previous_.size() && key_of(previous_[place_]) < key; ++place_) {
+        if (previous_[place_].contact != none) ended_.push_back(previous_[place_]);
     }
-    listed_.push_back(slot);
-    return slot;
+    if (place_ < previous_.size() && key_of(previous_[place_]) == key) {
+        pairs_.push_back(previous_[place_++]);
+    } else {
+        PairRecord& pair = pairs_.emplace_back();
+        pair.shape_a = shape_a;
+        pair.shape_b = shape_b;
+    }
+}
+
+const PairRecord* ContactStore::find_pair(std::uint32_t shape_a, std::uint32_t shape_b) const {
+    const std::uint64_t key = pair_key(shape_a, shape_b);
+    const auto found = std::lower_bound(
+        pairs_.begin(), pairs_.end(), key,
+        [](const PairRecord& pair, std::uint64_t wanted) { return key_of(pair) < wanted; });
+    return found != pairs_.end() && key_of(*found) == key ? &*found : nullptr;
+}
+
+Contact& ContactStore::add_contact(PairRecord& pair) {
+    if (free_.empty()) {
+        free_.push_back(std::uint32_t(slots_.size()));
+        slots_.emplace_back();
+        sightings_.emplace_back();
+    }
+    pair.contact = free_.back();
+    free_.pop_back();
+    sightings_[pair.contact].owner = FaceSighting::Owner::None;
+    Contact& contact = slots_[pair.contact];
+    contact = Contact{};
+    contact.key = key_of(pair);
+    contact.shape_a = pair.shape_a;
+    contact.shape_b = pair.shape_b;
+    table_.insert(contact.key, pair.contact);
+    return contact;
+}
+
+void ContactStore::remove_contact(PairRecord& pair) {
+    table_.remove(key_of(pair));
+    free_.push_back(pair.contact);
+    pair.contact = none;
+    pair.meets = false;
+}
+
+void clear_impulses(Contact& contact) {
+    for (int i = 0; i < contact.point_count; ++i) {
+        contact.points[std::size_t(i)].normal_impulse = 0;
+        contact.points[std::size_t(i)].friction_impulse = {};
+    }
+    contact.rolling_impulse = {};
+    contact.spinning_impulse = 0;
 }
 
 void match_points(Contact& contact, std::span<const ContactPoint> renewed) {
@@ -42,8 +88,10 @@ void match_points(Contact& contact, std::span<const ContactPoint> renewed) {
             break;
         }
     }
-    contact.points = points;
     contact.point_count = int(renewed.size());
+    std::copy_n(points.begin(), renewed.size(), contact.points.begin());
+    contact.rolling_impulse = {};
+    contact.spinning_impulse = 0;
 }
 
 }  // namespace cairn

@@ -1,14 +1,18 @@
 #pragma once
-// Where contacts live: found by pair in constant time, kept in slots that do not move, listed in
-// the order of their keys. A pair that ends leaves with its key.
+// The pairs of shapes that may touch, in ascending order of their keys, and the contacts of those
+// that do: found by pair in constant time, in slots that do not move. A pair that ends leaves with
+// its contact. Most pairs have none, so what is kept of a pair is small.
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "base/pair_table.h"
 #include "contact/contact.h"
 #include "contact/manifold.h"
+#include "contact/reuse.h"
+#include "narrow/axis.h"
 
 namespace cairn {
 
@@ -16,37 +20,56 @@ constexpr std::uint64_t pair_key(std::uint32_t shape_a, std::uint32_t shape_b) {
     return (std::uint64_t{shape_a} << 32) | shape_b;
 }
 
+struct PairRecord {
+    std::uint32_t shape_a = 0, shape_b = 0;
+    std::uint32_t contact = PairTable::none;  // its slot
+    AxisHint hint;
+    bool meets = false;  // has contact points in this step
+    // The shapes have stayed apart while the ways that the two bodies have gone together are less
+    // than this (world/detect.h).
+    double apart_until = -1;
+};
+
 class ContactStore {
 public:
     static constexpr std::uint32_t none = PairTable::none;
 
-    // A renewal lists all pairs of the step, in ascending order of key; the contacts of those not
-    // listed end.
+    // A renewal lists all pairs of the step, in ascending order of key; those not listed end.
     void begin_renewal();
-    // The slot of the pair's contact, a new one where there was none.
-    std::uint32_t renew(std::uint32_t shape_a, std::uint32_t shape_b);
-    // Ends what was not renewed, calling on_end(contact) for each, in ascending order of key.
+    void renew(std::uint32_t shape_a, std::uint32_t shape_b);
+    // Ends what was not renewed, calling on_end(contact) for each that has a contact, in ascending
+    // order of key.
     template <class OnEnd>
     void end_renewal(OnEnd&& on_end);
 
-    // Ends contacts outside a renewal: those of a body that is gone, say.
+    // Ends pairs outside a renewal: those of a body that is gone, say.
     template <class Unwanted>
     void remove_if(Unwanted&& unwanted);
 
-    // Slots in ascending order of key.
-    std::span<const std::uint32_t> listed() const { return listed_; }
-    std::span<Contact> slots() { return slots_; }
-    Contact& operator[](std::uint32_t slot) { return slots_[slot]; }
-    const Contact& operator[](std::uint32_t slot) const { return slots_[slot]; }
+    // Ascending.
+    std::span<PairRecord> pairs() { return pairs_; }
+    std::span<const PairRecord> pairs() const { return pairs_; }
+    const PairRecord* find_pair(std::uint32_t shape_a, std::uint32_t shape_b) const;
+
+    // Gives the pair a contact, as new.
+    Contact& add_contact(PairRecord& pair);
+    void remove_contact(PairRecord& pair);
     std::uint32_t find(std::uint32_t shape_a, std::uint32_t shape_b) const {
         return table_.find(pair_key(shape_a, shape_b));
     }
-    std::size_t size() const { return table_.size(); }
+    std::span<Contact> slots() { return slots_; }
+    Contact& operator[](std::uint32_t slot) { return slots_[slot]; }
+    const Contact& operator[](std::uint32_t slot) const { return slots_[slot]; }
+    FaceSighting& sighting(std::uint32_t slot) { return sightings_[slot]; }
+    std::size_t contact_count() const { return table_.size(); }
 
 private:
+    std::vector<PairRecord> pairs_, previous_;
+    std::size_t place_ = 0;          // in previous_: what comes before has been renewed or ended
+    std::vector<PairRecord> ended_;  // with contacts
     std::vector<Contact> slots_;
+    std::vector<FaceSighting> sightings_;  // likewise
     std::vector<std::uint32_t> free_;
-    std::vector<std::uint32_t> listed_, previous_;
     PairTable table_;
 };
 
@@ -56,25 +79,21 @@ void match_points(Contact& contact, std::span<const ContactPoint> renewed);
 
 template <class Unwanted>
 void ContactStore::remove_if(Unwanted&& unwanted) {
-    std::erase_if(listed_, [&](std::uint32_t slot) {
-        if (!unwanted(slots_[slot])) return false;
-        table_.remove(slots_[slot].key);
-        free_.push_back(slot);
+    std::erase_if(pairs_, [&](PairRecord& pair) {
+        if (!unwanted(std::as_const(pair))) return false;
+        if (pair.contact != none) remove_contact(pair);
         return true;
     });
 }
 
 template <class OnEnd>
 void ContactStore::end_renewal(OnEnd&& on_end) {
-    // Both lists ascend: one walk finds what is missing from the new one.
-    std::size_t i = 0;
-    for (const std::uint32_t slot : previous_) {
-        const std::uint64_t key = slots_[slot].key;
-        while (i < listed_.size() && slots_[listed_[i]].key < key) ++i;
-        if (i < listed_.size() && listed_[i] == slot) continue;
-        on_end(slots_[slot]);
-        table_.remove(key);
-        free_.push_back(slot);
+    for (; place_ < previous_.size(); ++place_) {
+        if (previous_[place_].contact != none) ended_.push_back(previous_[place_]);
+    }
+    for (PairRecord& pair : ended_) {
+        on_end(slots_[pair.contact]);
+        remove_contact(pair);
     }
 }
 

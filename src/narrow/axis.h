@@ -15,6 +15,8 @@ struct Axis {
     float separation = 0;     // signed metres along it, negative where the shapes overlap
     Vec3 point_a;             // the closest (or deepest) point of A, relative to A's origin
     Vec3 point_b;             // of B, relative to B's origin, still along A's axes
+    // Of two boxes: whether the normal is exactly that of the face or edge pair that the hint names.
+    bool on_hint = false;
 };
 
 // What the last step found for this pair, kept by the contact store: where two axes are as good as

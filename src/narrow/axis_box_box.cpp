@@ -21,7 +21,7 @@ namespace {
 std::optional<Axis> axis_along(const BoxPair& pair, const SeparatingAxis& along, float yielding) {
     const BoxWitness witness = find_witness(pair, along, yielding);
     if (along.separation > 0 && !witness.is_on_both) return std::nullopt;
-    return Axis{along.normal, along.separation, witness.point_a, witness.point_b};
+    return Axis{along.normal, along.separation, witness.point_a, witness.point_b, true};
 }
 
 // The edge pair whose axis is the given normal, to 1e-3 radians; an unknown kind where there is

@@ -6,6 +6,8 @@
 #include <iterator>
 
 #include "contact/build_manifold.h"
+#include "contact/reuse.h"
+#include "narrow/box_pair.h"
 #include "narrow/find_axis.h"
 #include "shape/bounds.h"
 
@@ -58,12 +60,41 @@ Arm make_arm(const WorldState& world, const ShapeRecord& shape, Vec3 point) {
     return {center, point - rotate(rotation, center)};
 }
 
+BodyPlace place_of(const WorldState& world, std::uint32_t body) {
+    return {world.positions[body], world.motions[body].rotation};
+}
+
+float pair_size(const ShapeRecord& a, const ShapeRecord& b) { return min(a.size, b.size); }
+
+// How far two bodies' points may have come towards each other when this step is over, beyond what
+// they had when it was least: the ways that both have gone, and what is before them.
+double gone_together(const WorldState& world, const PairRecord& pair) {
+    return world.ways[world.shapes[pair.shape_a].body].gone +
+           world.ways[world.shapes[pair.shape_b].body].gone;
+}
+double horizon_together(const WorldState& world, const PairRecord& pair) {
+    return world.ways[world.shapes[pair.shape_a].body].horizon +
+           world.ways[world.shapes[pair.shape_b].body].horizon;
+}
+
 bool may_touch(const WorldState& world, const Pair& pair) {
     const std::uint32_t a = world.shapes[pair.a].body;
     const std::uint32_t b = world.shapes[pair.b].body;
     // Kinematic bodies have nothing to say to what cannot move either.
     const bool can_push = world.inertias[a].inverse_mass > 0 || world.inertias[b].inverse_mass > 0;
     return a != b && can_push && agree(world.bodies[a].filter, world.bodies[b].filter);
+}
+
+// How far apart two shapes may be and still touch within dt seconds, by their velocities along the
+// normal, their spins, and gravity; never less than a small share of their size.
+float speculative_distance(const WorldState& world, const ShapeRecord& a, const ShapeRecord& b,
+                           const Meeting& meeting, double dt) {
+    const auto h = float(dt);
+    const Vec3 normal = rotate(meeting.rotation_a, meeting.axis.normal);
+    const Vec3 v = world.motions[b.body].linear_velocity - world.motions[a.body].linear_velocity;
+    const float approach = max(0, -dot(normal, v));
+    return skin_share * pair_size(a, b) + h * approach + fall_in(world, h) +
+           turning_reach(world, a, h) + turning_reach(world, b, h);
 }
 
 // The box with room for some steps more.
@@ -156,6 +187,41 @@ void find_tree_pairs(WorldState& world, double dt, std::span<const Proxy> proxie
     }
 }
 
+void update_ways(WorldState& world, double dt) {
+    const auto h = float(dt);
+    const float fall = fall_in(world, h);
+    for (const std::uint32_t body : world.scratch.moving) {
+        BodyWay& way = world.ways[body];
+        const BodyPlace place = place_of(world, body);
+        const BodyMotion& motion = world.motions[body];
+        const Vec3 moved = place.position - way.place.position;
+        if (moved != Vec3{}) way.gone += double(length(moved));
+        if (place.rotation != way.place.rotation) {
+            // A turn moves a point by the chord over its arm.
+            way.gone += 2.0 * double(length(half_turn(place.rotation, way.place.rotation))) *
+                        double(way.reach);
+        }
+        way.place = place;
+        way.horizon = way.gone + double(h * length(motion.linear_velocity) + fall);
+        if (motion.angular_velocity != Vec3{}) {
+            way.horizon += double(min(h * length(motion.angular_velocity), 2.0f) * way.reach);
+        }
+    }
+}
+
+bool is_apart(const WorldState& world, const PairRecord& pair) {
+    return horizon_together(world, pair) < pair.apart_until;
+}
+
+void remember_apart(const WorldState& world, PairRecord& pair, float separation) {
+    const float skin =
+        skin_share * pair_size(world.shapes[pair.shape_a], world.shapes[pair.shape_b]);
+    // The sum of the ways is rounded.
+    constexpr double rounding = 1e-12;
+    const double gone = gone_together(world, pair);
+    pair.apart_until = gone + double(separation - skin) - rounding * gone;
+}
+
 void describe_contact(const WorldState& world, Contact& contact) {
     const ShapeRecord& a = world.shapes[contact.shape_a];
     const ShapeRecord& b = world.shapes[contact.shape_b];
@@ -167,42 +233,51 @@ void describe_contact(const WorldState& world, Contact& contact) {
     contact.restitution = max(material_a.restitution, material_b.restitution);
     contact.rolling_friction = max(material_a.rolling_friction, material_b.rolling_friction);
     contact.spinning_friction = max(material_a.spinning_friction, material_b.spinning_friction);
-    contact.surface_velocity = rotate(world.motions[b.body].rotation, material_b.surface_velocity) -
-                               rotate(world.motions[a.body].rotation, material_a.surface_velocity);
-    contact.size = min(a.size, b.size);
+    contact.conveys =
+        material_a.surface_velocity != Vec3{} || material_b.surface_velocity != Vec3{};
+    contact.surface_velocity = {};
+    turn_surface_velocity(world, contact);
+    contact.size = pair_size(a, b);
     const bool round_a = is_round(a.def.geometry);
     const bool round_b = is_round(b.def.geometry);
     contact.stays_with_a = round_a != round_b ? round_a : a.size < b.size;
 }
 
-bool find_contact_axis(const WorldState& world, Contact& contact) {
-    const ShapeRecord& a = world.shapes[contact.shape_a];
-    const ShapeRecord& b = world.shapes[contact.shape_b];
-    const Vec3 between = (world.positions[b.body] - world.positions[a.body]) +
-                         (shape_offset(world, b) - shape_offset(world, a));
-    const Quat rotation_a = shape_rotation(world, a);
-    const Pose b_in_a = {rotate_inverse(rotation_a, between),
-                         conjugate(rotation_a) * shape_rotation(world, b)};
-    if (!is_finite(b_in_a.position)) return false;
-    contact.axis = find_axis(a.def.geometry, b.def.geometry, b_in_a,
-                             world.settings.step.narrow_phase, contact.hint);
-    return is_finite(contact.axis.normal) && is_finite(contact.axis.separation);
+void turn_surface_velocity(const WorldState& world, Contact& contact) {
+    if (!contact.conveys) return;
+    const Vec3 on_a = world.shapes[contact.shape_a].def.material.surface_velocity;
+    const Vec3 on_b = world.shapes[contact.shape_b].def.material.surface_velocity;
+    contact.surface_velocity = rotate(world.motions[contact.body_b].rotation, on_b) -
+                               rotate(world.motions[contact.body_a].rotation, on_a);
 }
 
-int build_contact_points(const WorldState& world, Contact& contact, float max_separation,
-                         std::array<ContactPoint, 4>& points) {
+bool find_meeting(const WorldState& world, std::uint32_t shape_a, std::uint32_t shape_b, double dt,
+                  AxisHint& hint, Meeting& meeting) {
+    const ShapeRecord& a = world.shapes[shape_a];
+    const ShapeRecord& b = world.shapes[shape_b];
+    meeting.offset_a = shape_offset(world, a);
+    meeting.offset_b = shape_offset(world, b);
+    const Vec3 between =
+        (world.positions[b.body] - world.positions[a.body]) + (meeting.offset_b - meeting.offset_a);
+    meeting.rotation_a = shape_rotation(world, a);
+    meeting.b_in_a = {rotate_inverse(meeting.rotation_a, between),
+                      conjugate(meeting.rotation_a) * shape_rotation(world, b)};
+    if (!is_finite(meeting.b_in_a.position)) return false;
+    meeting.axis = find_axis(a.def.geometry, b.def.geometry, meeting.b_in_a,
+                             world.settings.step.narrow_phase, hint);
+    meeting.hint = hint;
+    if (!is_finite(meeting.axis.normal) || !is_finite(meeting.axis.separation)) return false;
+    meeting.within = speculative_distance(world, a, b, meeting, dt);
+    return true;
+}
+
+int build_contact_points(const WorldState& world, const Meeting& meeting, float max_separation,
+                         Contact& contact, std::array<ContactPoint, 4>& points) {
     const ShapeRecord& a = world.shapes[contact.shape_a];
     const ShapeRecord& b = world.shapes[contact.shape_b];
-    const Vec3 offset_a = shape_offset(world, a);
-    const Vec3 offset_b = shape_offset(world, b);
-    const Vec3 between =
-        (world.positions[b.body] - world.positions[a.body]) + (offset_b - offset_a);
-    const Quat rotation_a = shape_rotation(world, a);
-    const Pose b_in_a = {rotate_inverse(rotation_a, between),
-                         conjugate(rotation_a) * shape_rotation(world, b)};
-    const Manifold manifold =
-        build_manifold(a.def.geometry, b.def.geometry, b_in_a, contact.axis, max_separation);
-
+    const Quat rotation_a = meeting.rotation_a;
+    const Manifold manifold = build_manifold(a.def.geometry, b.def.geometry, meeting.b_in_a,
+                                             meeting.axis, max_separation);
     contact.normal = normalize_or(rotate(rotation_a, manifold.normal), {0, 1, 0});
     int count = 0;
     for (int i = 0; i < manifold.point_count; ++i) {
@@ -210,24 +285,48 @@ int build_contact_points(const WorldState& world, Contact& contact, float max_se
         if (!is_finite(from.separation) || !is_finite(from.from_a) || !is_finite(from.from_b))
             continue;
         ContactPoint point;
-        point.arm_a = make_arm(world, a, offset_a + rotate(rotation_a, from.from_a));
-        point.arm_b = make_arm(world, b, offset_b + rotate(rotation_a, from.from_b));
+        point.arm_a = make_arm(world, a, meeting.offset_a + rotate(rotation_a, from.from_a));
+        point.arm_b = make_arm(world, b, meeting.offset_b + rotate(rotation_a, from.from_b));
         point.separation = from.separation;
         point.feature = from.feature;
         points[std::size_t(count++)] = point;
     }
+    // A ball's arms do not turn with it.
+    const float short_arm = 1e-3f * contact.size;
+    const auto turns = [&](Vec3 core) { return length_squared(core) > short_arm * short_arm; };
+    contact.turns_with_a = count > 0 && turns(points[0].arm_a.core);
+    contact.turns_with_b = count > 0 && turns(points[0].arm_b.core);
     return count;
 }
 
-float speculative_distance(const WorldState& world, const Contact& contact, double dt) {
-    const auto h = float(dt);
-    const ShapeRecord& a = world.shapes[contact.shape_a];
-    const ShapeRecord& b = world.shapes[contact.shape_b];
-    const Vec3 normal = rotate(shape_rotation(world, a), contact.axis.normal);
-    const Vec3 v = world.motions[b.body].linear_velocity - world.motions[a.body].linear_velocity;
-    const float approach = max(0, -dot(normal, v));
-    return skin_share * contact.size + h * approach + fall_in(world, h) +
-           turning_reach(world, a, h) + turning_reach(world, b, h);
+bool follow_contact(WorldState& world, const PairRecord& pair) {
+    const FaceSighting& seen = world.contacts.sighting(pair.contact);
+    if (seen.owner == FaceSighting::Owner::None) return false;
+    Contact& contact = world.contacts[pair.contact];
+    // What touches for the first time is measured, and so is what points left out may come to.
+    if (!contact.touching || contact.point_count == 0) return false;
+    if (contact.point_count < 4) {
+        const double ahead = horizon_together(world, pair) - gone_together(world, pair);
+        if (ahead + double(skin_share * contact.size) > double(seen.within)) return false;
+    }
+    return follow_face(contact, seen, place_of(world, contact.body_a),
+                       place_of(world, contact.body_b));
+}
+
+void remember_contact(WorldState& world, const PairRecord& pair, const Meeting& meeting) {
+    FaceSighting& seen = world.contacts.sighting(pair.contact);
+    seen.owner = FaceSighting::Owner::None;
+    const Contact& contact = world.contacts[pair.contact];
+    const Geometry& a = world.shapes[pair.shape_a].def.geometry;
+    const Geometry& b = world.shapes[pair.shape_b].def.geometry;
+    // A round shape's answer is had for less than it takes to follow it.
+    if (is_round(a) || is_round(b)) return;
+    const auto kind = BoxAxisKind(meeting.hint.kind);
+    const bool of_a = is_plane(a) || (meeting.axis.on_hint && kind == BoxAxisKind::FaceA);
+    const bool of_b = is_plane(b) || (meeting.axis.on_hint && kind == BoxAxisKind::FaceB);
+    if (!of_a && !of_b) return;
+    remember_face(contact, place_of(world, contact.body_a), place_of(world, contact.body_b),
+                  of_a ? FaceSighting::Owner::A : FaceSighting::Owner::B, meeting.within, seen);
 }
 
 }  // namespace cairn

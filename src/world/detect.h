@@ -16,19 +16,32 @@ void find_all_pairs(const WorldState& world, BruteForce& broad, std::span<const 
 void find_tree_pairs(WorldState& world, double dt, std::span<const Proxy> proxies,
                      std::vector<Pair>& pairs);
 
+// How far each moving body has gone since it was there, and may go in this step.
+void update_ways(WorldState& world, double dt);
+// Whether a pair that was apart cannot have come within reach since, nor come there in this step.
+bool is_apart(const WorldState& world, const PairRecord& pair);
+// The shapes were just measured to be so far apart.
+void remember_apart(const WorldState& world, PairRecord& pair, float separation);
+
 // Who meets, and what their surfaces do together.
 void describe_contact(const WorldState& world, Contact& contact);
+// The surfaces' own velocity, which turns with the bodies.
+void turn_surface_velocity(const WorldState& world, Contact& contact);
 
-// Renews contact.axis. False, and no axis, where the numbers are beyond binary32.
-bool find_contact_axis(const WorldState& world, Contact& contact);
+// Along which axis two shapes meet, and how far apart they may be and still touch within dt
+// seconds. False where the numbers are beyond binary32.
+bool find_meeting(const WorldState& world, std::uint32_t shape_a, std::uint32_t shape_b, double dt,
+                  AxisHint& hint, Meeting& meeting);
 
-// Up to four world-frame points along contact.axis, with no impulses yet; the contact's normal is
+// Up to four world-frame points where they meet, with no impulses yet; the contact's normal is
 // renewed. Points farther apart than `max_separation` are left out. Returns their number.
-int build_contact_points(const WorldState& world, Contact& contact, float max_separation,
-                         std::array<ContactPoint, 4>& points);
+int build_contact_points(const WorldState& world, const Meeting& meeting, float max_separation,
+                         Contact& contact, std::array<ContactPoint, 4>& points);
 
-// How far apart two shapes may be and still touch within dt seconds, by their velocities along the
-// normal, their spins, and gravity; never less than a small share of their size.
-float speculative_distance(const WorldState& world, const Contact& contact, double dt);
+// Brings the pair's contact to the present from what was found in an earlier step, where the bodies
+// have hardly moved against each other since (contact/reuse.h); false where it must be found anew.
+bool follow_contact(WorldState& world, const PairRecord& pair);
+// What was just found, for that.
+void remember_contact(WorldState& world, const PairRecord& pair, const Meeting& meeting);
 
 }  // namespace cairn

@@ -95,17 +95,19 @@ std::vector<ContactReport> World::contacts() const {
         Contact contact;
         contact.shape_a = pair.a;
         contact.shape_b = pair.b;
-        const std::uint32_t slot = world.contacts.find(pair.a, pair.b);
-        const Contact* stored = slot == ContactStore::none ? nullptr : &world.contacts[slot];
-        if (stored) contact.hint = stored->hint;
+        const PairRecord* known = world.contacts.find_pair(pair.a, pair.b);
+        const bool met = known && known->contact != ContactStore::none;
+        const Contact* stored = met ? &world.contacts[known->contact] : nullptr;
+        AxisHint hint = known ? known->hint : AxisHint{};
         describe_contact(world, contact);
-        if (!find_contact_axis(world, contact)) continue;
+        Meeting meeting;
+        if (!find_meeting(world, pair.a, pair.b, 0, hint, meeting)) continue;
         // A pair that exchanged an impulse is reported however far it has flown apart since.
         const bool struck = stored && carries_impulse(*stored);
-        const float within = speculative_distance(world, contact, 0);
+        const float within = meeting.within;
         const float wanted = struck ? std::numeric_limits<float>::max() : within;
-        if (contact.axis.separation > wanted) continue;
-        contact.point_count = build_contact_points(world, contact, wanted, contact.points);
+        if (meeting.axis.separation > wanted) continue;
+        contact.point_count = build_contact_points(world, meeting, wanted, contact, contact.points);
         if (stored) assign_impulses(*stored, contact);
         const ContactReport report = describe(world, contact, within);
         if (report.point_count > 0) reports.push_back(report);

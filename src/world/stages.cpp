@@ -61,6 +61,7 @@ void find_heights(WorldState& world) {
     }
 }
 
+// A contact without points: nothing is left of it but that it touched, until that is reported.
 void clear_contact(Contact& contact) {
     contact.point_count = 0;
     contact.remembered_load = 0;
@@ -135,50 +136,65 @@ void find_pairs(WorldState& world, double dt) {
         find_all_pairs(world, scratch.broad, scratch.proxies, scratch.pairs);
     }
     world.contacts.begin_renewal();
-    for (const Pair& pair : world.scratch.pairs) {
-        const std::uint32_t slot = world.contacts.renew(pair.a, pair.b);
-        describe_contact(world, world.contacts[slot]);
-    }
+    for (const Pair& pair : world.scratch.pairs) world.contacts.renew(pair.a, pair.b);
     world.contacts.end_renewal([&](const Contact& ended) {
         if (ended.touching) world.events.push_back(make_event(world, ended, ContactEventKind::End));
     });
     world.report.pair_count = world.scratch.pairs.size();
 }
 
-// Reads the listed pairs; writes each contact's axis.
-void find_axes(WorldState& world) {
+// Reads the listed pairs; writes the axis of each that is within reach, and brings contacts to the
+// present whose bodies hardly moved against each other.
+void find_axes(WorldState& world, double dt) {
     const StageTimer timer(world, Stage::FindAxes);
-    for (const std::uint32_t slot : world.contacts.listed()) {
-        Contact& contact = world.contacts[slot];
-        if (!find_contact_axis(world, contact))
-            contact.axis.separation = std::numeric_limits<float>::infinity();
+    const bool may_follow = world.settings.step.reuse_contacts;
+    auto& meetings = world.scratch.meetings;
+    meetings.clear();
+    update_ways(world, dt);
+    std::uint32_t place = 0;
+    for (PairRecord& pair : world.contacts.pairs()) {
+        const std::uint32_t index = place++;
+        const bool has_contact = pair.contact != ContactStore::none;
+        pair.meets = has_contact && may_follow && follow_contact(world, pair);
+        if (pair.meets || (!has_contact && may_follow && is_apart(world, pair))) continue;
+        Meeting& meeting = meetings.emplace_back();
+        meeting.pair = index;
+        const bool is_found =
+            find_meeting(world, pair.shape_a, pair.shape_b, dt, pair.hint, meeting);
+        pair.meets = is_found && meeting.axis.separation <= meeting.within;
+        if (pair.meets) continue;
+        if (is_found) remember_apart(world, pair, meeting.axis.separation);
+        if (has_contact) clear_contact(world.contacts[pair.contact]);
+        meetings.pop_back();
     }
 }
 
-// Reads axes; writes each contact's normal and points, and lists the contacts that have any.
-void build_manifolds(WorldState& world, double dt) {
+// Reads axes; writes the normal and points of each contact, and lists the contacts that have any.
+void build_manifolds(WorldState& world) {
     const StageTimer timer(world, Stage::BuildManifolds);
+    for (const Meeting& meeting : world.scratch.meetings) {
+        PairRecord& pair = world.contacts.pairs()[meeting.pair];
+        if (pair.contact == ContactStore::none)
+            describe_contact(world, world.contacts.add_contact(pair));
+        Contact& contact = world.contacts[pair.contact];
+        std::array<ContactPoint, 4> points;
+        const int count = build_contact_points(world, meeting, meeting.within, contact, points);
+        match_points(contact, std::span(points).first(std::size_t(count)));
+        pair.meets = count > 0;
+        if (count == 0) clear_contact(contact);
+        // Shapes that move together touch before they overlap; these were put there overlapping.
+        if (!contact.touching) contact.first_overlap = max(0, -meeting.axis.separation);
+        remember_contact(world, pair, meeting);
+    }
     auto& active = world.scratch.active;
     active.clear();
     std::size_t point_count = 0;
-    for (const std::uint32_t slot : world.contacts.listed()) {
-        Contact& contact = world.contacts[slot];
-        const float within = speculative_distance(world, contact, dt);
-        std::array<ContactPoint, 4> points;
-        int count = 0;
-        if (contact.axis.separation <= within)
-            count = build_contact_points(world, contact, within, points);
-        match_points(contact, std::span(points).first(std::size_t(count)));
-        // Shapes that move together touch before they overlap; these were put there overlapping.
-        if (!contact.touching) contact.first_overlap = max(0, -contact.axis.separation);
-        contact.rolling_impulse = {};
-        contact.spinning_impulse = 0;
-        if (count == 0) {
-            clear_contact(contact);
-        } else {
-            active.push_back(slot);
-            point_count += std::size_t(count);
-        }
+    for (const PairRecord& pair : world.contacts.pairs()) {
+        if (!pair.meets) continue;
+        Contact& contact = world.contacts[pair.contact];
+        turn_surface_velocity(world, contact);
+        active.push_back(pair.contact);
+        point_count += std::size_t(contact.point_count);
     }
     world.report.contact_count = point_count;
 }
@@ -239,17 +255,20 @@ void move_bodies(WorldState& world) {
     }
 }
 
-// Reads impulses; writes the events of contacts that began or ended.
+// Reads impulses; writes the events of contacts that began or ended, and drops those without
+// points.
 void report_contacts(WorldState& world) {
     const StageTimer timer(world, Stage::Finish);
-    for (const std::uint32_t slot : world.contacts.listed()) {
-        Contact& contact = world.contacts[slot];
+    for (PairRecord& pair : world.contacts.pairs()) {
+        if (pair.contact == ContactStore::none) continue;
+        Contact& contact = world.contacts[pair.contact];
         const bool touching = is_touching(contact);
         if (touching != contact.touching) {
             const auto kind = touching ? ContactEventKind::Begin : ContactEventKind::End;
             world.events.push_back(make_event(world, contact, kind));
         }
         contact.touching = touching;
+        if (contact.point_count == 0) world.contacts.remove_contact(pair);
     }
 }
 

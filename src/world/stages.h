@@ -7,8 +7,8 @@ namespace cairn {
 
 void apply_changes(WorldState& world, double dt);
 void find_pairs(WorldState& world, double dt);
-void find_axes(WorldState& world);
-void build_manifolds(WorldState& world, double dt);
+void find_axes(WorldState& world, double dt);
+void build_manifolds(WorldState& world);
 void advance(WorldState& world, double dt);
 void move_bodies(WorldState& world);
 void report_contacts(WorldState& world);

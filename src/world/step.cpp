@@ -10,13 +10,13 @@ namespace cairn {
 void step_world(WorldState& world, double dt) {
     const FloatEnvironment ieee;
 
-    apply_changes(world, dt);    // the user's forces; what is not finite is frozen here
-    find_pairs(world, dt);       // broad phase: which boxes overlap
-    find_axes(world);            // narrow phase: along which direction two shapes meet
-    build_manifolds(world, dt);  // contact points, with the impulses of the last step
-    advance(world, dt);          // integrate, solve, correct: the exchangeable method
-    move_bodies(world);          // displacements become positions; what went wrong is frozen
-    report_contacts(world);      // which contacts began, which ended
+    apply_changes(world, dt);  // the user's forces; what is not finite is frozen here
+    find_pairs(world, dt);     // broad phase: which boxes overlap
+    find_axes(world, dt);      // narrow phase: along which direction two shapes meet
+    build_manifolds(world);    // contact points, with the impulses of the last step
+    advance(world, dt);        // integrate, solve, correct: the exchangeable method
+    move_bodies(world);        // displacements become positions; what went wrong is frozen
+    report_contacts(world);    // which contacts began, which ended
 }
 
 }  // namespace cairn

@@ -5,6 +5,7 @@
 #include "base/float_environment.h"
 #include "shape/bounds.h"
 #include "shape/mass.h"
+#include "world/detect.h"
 #include "world/step.h"
 #include "world/validate.h"
 #include "world/world_state.h"
@@ -82,10 +83,12 @@ void assign_mass(WorldState& world, std::uint32_t slot, const MassProperties& pr
     body.center_of_mass = properties.center_of_mass;
     body.mass_properties = properties;
     world.inertias[slot] = can_move(world, slot) ? make_inertia(properties) : BodyInertia{};
+    float& reach = world.ways[slot].reach = 0;
     for (const std::uint32_t s : body.shapes) {
         ShapeRecord& shape = world.shapes[s];
         shape.reach = length(shape.def.local_pose.position - body.center_of_mass) +
                       bounding_radius(shape.def.geometry);
+        reach = max(reach, shape.reach);
     }
 }
 
@@ -122,8 +125,18 @@ void remove_shape(WorldState& world, std::uint32_t slot) {
 // Contacts of what has just been removed, or is somewhere else now, end at once, so that a slot
 // used again inherits no impulses.
 void forget_contacts(WorldState& world, std::uint32_t body) {
-    world.contacts.remove_if(
-        [&](const Contact& c) { return c.body_a == body || c.body_b == body; });
+    world.contacts.remove_if([&](const PairRecord& pair) {
+        return world.shapes[pair.shape_a].body == body || world.shapes[pair.shape_b].body == body;
+    });
+}
+
+// Every contact is found anew in the next step.
+void forget_sightings(WorldState& world) {
+    for (PairRecord& pair : world.contacts.pairs()) {
+        pair.apart_until = -1;
+        if (pair.contact == ContactStore::none) continue;
+        world.contacts.sighting(pair.contact).owner = FaceSighting::Owner::None;
+    }
 }
 
 }  // namespace
@@ -156,6 +169,7 @@ Status World::set_settings(const WorldSettings& settings) {
     if (const Refusal r = check_settings(settings)) return tell(*state_, "set_settings", *r);
     if (settings.step.solver != state_->settings.step.solver)
         state_->solver = make_solver(settings.step.solver);
+    if (settings.step.narrow_phase != state_->settings.step.narrow_phase) forget_sightings(*state_);
     state_->settings = settings;
     return Done{};
 }
@@ -177,6 +191,7 @@ Result<BodyId> World::create_body(const BodyDef& def) {
         world.motions.emplace_back();
         world.inertias.emplace_back();
         world.drives.emplace_back();
+        world.ways.emplace_back();
     }
     BodyRecord& body = world.bodies[slot];
     wanted.generation = body.generation;
@@ -197,6 +212,7 @@ Result<BodyId> World::create_body(const BodyDef& def) {
     world.motions[slot] = {.rotation = normalize(def.rotation)};
     for (const ShapeDef& shape : def.shapes) add_shape(world, slot, shape);
     assign_mass(world, slot, *mass);
+    world.ways[slot].place = {world.positions[slot], world.motions[slot].rotation};
     // Given for the center of mass, and nothing moves that is static.
     if (def.kind != BodyKind::Static) {
         world.motions[slot].linear_velocity = def.linear_velocity;
@@ -251,7 +267,7 @@ Status World::destroy_shape(ShapeId id) {
     if (!mass) return tell(world, "destroy_shape", mass.error());
     remove_shape(world, id.index);
     world.contacts.remove_if(
-        [&](const Contact& c) { return c.shape_a == id.index || c.shape_b == id.index; });
+        [&](const PairRecord& p) { return p.shape_a == id.index || p.shape_b == id.index; });
     assign_mass(world, slot, *mass);
     return Done{};
 }
@@ -470,6 +486,11 @@ Status World::set_material(ShapeId id, const Material& material) {
     if (const Refusal r = check_material("material", material))
         return tell(*state_, "set_material", *r);
     state_->shapes[id.index].def.material = material;
+    for (const PairRecord& pair : state_->contacts.pairs()) {
+        if (pair.contact == ContactStore::none) continue;
+        if (pair.shape_a == id.index || pair.shape_b == id.index)
+            describe_contact(*state_, state_->contacts[pair.contact]);
+    }
     return Done{};
 }
 

@@ -41,6 +41,25 @@ struct ShapeRecord {
     float reach = 0;  // largest distance of a point from the body's center of mass
 };
 
+// How far a body's points have gone at most, m: what two shapes that were apart have left to go.
+struct BodyWay {
+    BodyPlace place;     // when this was last added to
+    double gone = 0;     // so far
+    double horizon = 0;  // and when this step is over
+    float reach = 0;     // largest distance of a point from the center of mass
+};
+
+// A pair of shapes within reach of each other, between two stages.
+struct Meeting {
+    std::uint32_t pair = 0;   // its place in the list
+    Vec3 offset_a, offset_b;  // from the bodies' centers of mass to the shapes' origins, world
+    Quat rotation_a;          // of shape A
+    Pose b_in_a;              // of the shapes
+    Axis axis;                // in shape A's frame
+    AxisHint hint;
+    float within = 0;  // points farther apart than this are left out
+};
+
 struct WorldState {
     WorldSettings settings;
     std::function<void(const Error&)> on_error;
@@ -52,6 +71,7 @@ struct WorldState {
     std::vector<BodyMotion> motions;
     std::vector<BodyInertia> inertias;
     std::vector<BodyDrive> drives;
+    std::vector<BodyWay> ways;
     std::vector<std::uint32_t> free_bodies;
     std::size_t body_count = 0;
 
@@ -76,6 +96,7 @@ struct WorldState {
         std::vector<Proxy> new_proxies;
         std::vector<std::uint32_t> proxy_places;  // by shape slot
         std::vector<std::uint32_t> moving;
+        std::vector<Meeting> meetings;
         std::vector<std::uint32_t> active;
         std::vector<BodyMotion> before;
         std::vector<float> heights;

@@ -204,9 +204,30 @@ private:
     std::array<Vec3, 4> arms_;
 };
 
+// The numbers of a row that a contact is told at the end: the others are not read.
+template <int P>
+SoftRow<P> read_result(const RowArray& rows, const SoftRows::Place& place) {
+    using Row = SoftRow<P>;
+    SoftRow<P> row;
+    auto* numbers = reinterpret_cast<float*>(&row);
+    const auto read = [&](std::size_t from, std::size_t to) {
+        for (std::size_t k = from / 4; k < to / 4; ++k)
+            numbers[k] = rows[rows.place(place.row, place.lane, k)];
+    };
+    read(offsetof(Row, n), offsetof(Row, arm_a));
+    read(offsetof(Row, x), offsetof(Row, start_separation));
+    read(offsetof(Row, separation), offsetof(Row, remembered));
+    read(offsetof(Row, total), offsetof(Row, mass));
+    read(offsetof(Row, friction_1), offsetof(Row, lever));
+    read(offsetof(Row, twist), offsetof(Row, masses_a));
+    if (is_special(place.kind)) read(offsetof(Row, roll_1), sizeof(Row));
+    return row;
+}
+
 // The row's impulses over the step into the contact's report, and its forces for the next step.
 template <int P>
-void store_row(const SoftRow<P>& row, float h, Contact& contact) {
+void store_row(const RowArray& rows, const SoftRows::Place& place, float h, Contact& contact) {
+    const SoftRow<P> row = read_result<P>(rows, place);
     const float inverse_h = 1.0f / h;
     const auto count = std::size_t(contact.point_count);
     const Vec3 friction = row.friction_1 * row.t1 + row.friction_2 * row.t2;
@@ -235,6 +256,22 @@ void store_row(const SoftRow<P>& row, float h, Contact& contact) {
     contact.rolling_impulse += row.roll_total_1 * row.t1 + row.roll_total_2 * row.t2;
 }
 
+void remember_load(Contact& contact) {
+    float force = 0;
+    for (int i = 0; i < contact.point_count; ++i) {
+        force += contact.points[std::size_t(i)].normal_force;
+    }
+    const float before = contact.remembered_load;
+    contact.remembered_load = min(before + learning_share * (force - before), force);
+}
+
+// Contacts lie far apart in memory: each is asked for some time before it is used.
+constexpr std::size_t far_ahead = 6;
+void prefetch(const Contact& contact) {
+    const auto* bytes = reinterpret_cast<const char*>(&contact);
+    for (std::size_t i = 0; i < 5; ++i) __builtin_prefetch(bytes + 64 * i);
+}
+
 }  // namespace
 
 RowRange SoftRows::range(const Batch& batch) {
@@ -244,15 +281,23 @@ RowRange SoftRows::range(const Batch& batch) {
             rows.write_a.data() + first, rows.write_b.data() + first, batch.end - batch.begin};
 }
 
-void SoftRows::colour(const StepProblem& problem) {
-    edges_.clear();
-    for (const std::uint32_t index : problem.active) {
-        const Contact& contact = problem.contacts[index];
-        edges_.push_back({contact.body_a, contact.body_b,
-                          problem.inertias[contact.body_a].inverse_mass > 0,
-                          problem.inertias[contact.body_b].inverse_mass > 0});
+void SoftRows::read_contacts(const StepProblem& problem) {
+    const Vec3 up = normalize_or(-problem.gravity, {});
+    const std::size_t count = problem.active.size();
+    links_.resize(count);
+    edges_.resize(count);
+    for (std::size_t k = 0; k < count; ++k) {
+        const Contact& contact = problem.contacts[problem.active[k]];
+        links_[k] = {.kind = kind_of(problem, contact),
+                     .point_count = std::uint8_t(contact.point_count),
+                     .bounces = contact.restitution > 0,
+                     .turns_with_a = contact.turns_with_a,
+                     .turns_with_b = contact.turns_with_b,
+                     .upright = absolute(dot(contact.normal, up))};
+        edges_[k] = {contact.body_a, contact.body_b,
+                     problem.inertias[contact.body_a].inverse_mass > 0,
+                     problem.inertias[contact.body_b].inverse_mass > 0};
     }
-    colouring_.colour(edges_, problem.motions.size(), colours_);
 }
 
 SoftRows::Place SoftRows::take_lane(RowKind kind, std::size_t colour_begin, std::uint32_t nobody) {
@@ -267,7 +312,7 @@ SoftRows::Place SoftRows::take_lane(RowKind kind, std::size_t colour_begin, std:
 
 void SoftRows::build(const StepProblem& problem, std::span<const Response> responses, float h,
                      float part, int width) {
-    colour(problem);
+    colouring_.colour(edges_, problem.motions.size(), colours_);
     for (std::size_t k = 0; k < row_kind_count; ++k) {
         const auto kind = RowKind(k);
         const bool special = is_special(kind);
@@ -278,12 +323,18 @@ void SoftRows::build(const StepProblem& problem, std::span<const Response> respo
     places_.resize(problem.active.size());
     // Two places after the bodies: one that stands still, one that may be written by anybody.
     const auto nobody = std::uint32_t(problem.motions.size());
+    std::uint32_t place_in_order = 0;
+    const auto last_place = std::uint32_t(colours_.order.size() - 1);
     for (std::size_t c = 0; c < colours_.count(); ++c) {
         std::array<std::size_t, row_kind_count> begins;
         for (std::size_t k = 0; k < row_kind_count; ++k) begins[k] = arrays_[k].count();
         for (const std::uint32_t k : colours_[c]) {
+            const std::uint32_t ahead =
+                std::min(place_in_order + std::uint32_t(far_ahead), last_place);
+            prefetch(problem.contacts[problem.active[colours_.order[ahead]]]);
+            ++place_in_order;
             const Contact& contact = problem.contacts[problem.active[k]];
-            const RowKind kind = kind_of(problem, contact);
+            const RowKind kind = links_[k].kind;
             const Place place = take_lane(kind, begins[std::size_t(kind)], nobody);
             places_[k] = place;
             RowArray& rows = array(kind);
@@ -308,28 +359,18 @@ void SoftRows::build(const StepProblem& problem, std::span<const Response> respo
     }
 }
 
-void SoftRows::store(const StepProblem& problem, float h) const {
+void SoftRows::store(const StepProblem& problem, float h, bool ends_step) const {
     for (std::size_t k = 0; k < places_.size(); ++k) {
         const Place place = places_[k];
         const RowArray& rows = arrays_[std::size_t(place.kind)];
         Contact& contact = problem.contacts[problem.active[k]];
+        prefetch(problem.contacts[problem.active[std::min(k + far_ahead, places_.size() - 1)]]);
         if (points_of(place.kind) == 1) {
-            store_row(get_lane<SoftRow<1>>(rows, place.row, place.lane), h, contact);
+            store_row<1>(rows, place, h, contact);
         } else {
-            store_row(get_lane<SoftRow<4>>(rows, place.row, place.lane), h, contact);
+            store_row<4>(rows, place, h, contact);
         }
-    }
-}
-
-void SoftRows::remember_loads(const StepProblem& problem) const {
-    for (const std::uint32_t index : problem.active) {
-        Contact& contact = problem.contacts[index];
-        float force = 0;
-        for (int i = 0; i < contact.point_count; ++i) {
-            force += contact.points[std::size_t(i)].normal_force;
-        }
-        const float before = contact.remembered_load;
-        contact.remembered_load = min(before + learning_share * (force - before), force);
+        if (ends_step) remember_load(contact);
     }
 }
 

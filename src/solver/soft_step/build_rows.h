@@ -24,13 +24,24 @@ public:
         std::uint32_t row = 0, lane = 0;
     };
 
+    // What is asked of every contact before its row is filled, by place in problem.active.
+    struct Link {
+        RowKind kind = RowKind::OnePoint;
+        std::uint8_t point_count = 0;
+        bool bounces = false;
+        bool turns_with_a = false, turns_with_b = false;
+        float upright = 0;  // the cosine between its normal and gravity, either way
+    };
+    void read_contacts(const StepProblem& problem);
+    std::span<const Link> links() const { return links_; }
+    std::span<const Colouring::Edge> edges() const { return edges_; }
+
+    // Of the contacts as read.
     void build(const StepProblem& problem, std::span<const Response> responses, float h, float part,
                int width);
     // What the rows hold into the contacts, their separations too: rows built from them go on as
-    // these would have.
-    void store(const StepProblem& problem, float h) const;
-    // Once a step: contacts learn what they bear.
-    void remember_loads(const StepProblem& problem) const;
+    // these would have. Once a step, at its end, contacts learn what they bear.
+    void store(const StepProblem& problem, float h, bool ends_step) const;
 
     std::span<const Batch> batches() const { return batches_; }
     RowRange range(const Batch& batch);
@@ -39,9 +50,9 @@ public:
     std::span<const Place> places() const { return places_; }
 
 private:
-    void colour(const StepProblem& problem);
     Place take_lane(RowKind kind, std::size_t colour_begin, std::uint32_t nobody);
 
+    std::vector<Link> links_;
     std::vector<Colouring::Edge> edges_;
     Colouring colouring_;
     Colours colours_;

@@ -34,12 +34,12 @@ void ExactLoads::prepare(const StepProblem& problem, std::span<const Response> r
     first_.clear();
     row_.assign(1, 0);
     matrix_.clear();
-    gather(problem);
+    if (!find_candidates(problem, rows)) return;
+    gather(problem, rows);
     for (const std::uint32_t body : problem.moving) {
-        if (level_[body] != 0 || problem.inertias[body].inverse_mass == 0) continue;
-        if (begins_[body] == begins_[body + 1]) continue;
+        if (level_[body] != 0 || begins_[body] == begins_[body + 1]) continue;
         order_island(problem, body);
-        if (!calls_for_it(problem)) continue;
+        if (!calls_for_it(body)) continue;
         const std::size_t begin = touches_.size();
         list_touches(problem, rows);
         if (fill(responses, begin)) {
@@ -112,15 +112,65 @@ void ExactLoads::abandon(Island& island, SoftRows& rows) {
     }
 }
 
-void ExactLoads::gather(const StepProblem& problem) {
+std::uint32_t ExactLoads::find_root(std::uint32_t body) {
+    while (sketches_[body].parent != body) {
+        sketches_[body].parent = sketches_[sketches_[body].parent].parent;
+        body = sketches_[body].parent;
+    }
+    return body;
+}
+
+bool ExactLoads::find_candidates(const StepProblem& problem, const SoftRows& rows) {
+    sketches_.resize(problem.motions.size());
+    for (const std::uint32_t body : problem.moving) sketches_[body] = {.parent = body};
+    for (std::size_t k = 0; k < problem.active.size(); ++k) {
+        const Colouring::Edge& edge = rows.edges()[k];
+        const SoftRows::Link& link = rows.links()[k];
+        if (!edge.pushes_a && !edge.pushes_b) continue;
+        std::uint32_t root = find_root(edge.pushes_a ? edge.body_a : edge.body_b);
+        if (edge.pushes_a && edge.pushes_b) {
+            const float a = problem.inertias[edge.body_a].mass;
+            const float b = problem.inertias[edge.body_b].mass;
+            if (a > uneven * b || b > uneven * a) sketches_[root].is_uneven = true;
+            std::uint32_t other = find_root(edge.body_b);
+            if (other != root) {
+                if (sketches_[root].bodies < sketches_[other].bodies) std::swap(root, other);
+                Sketch& all = sketches_[root];
+                const Sketch& part = sketches_[other];
+                all.bodies += part.bodies;
+                all.points += part.points;
+                all.leans = all.leans || part.leans;
+                all.is_uneven = all.is_uneven || part.is_uneven;
+                sketches_[other].parent = root;
+            }
+        }
+        sketches_[root].points += link.point_count;
+        if (link.upright < steep) sketches_[root].leans = true;
+    }
+    bool any = false;
+    for (const std::uint32_t body : problem.moving) {
+        const Sketch& all = sketches_[body];
+        any = any || (all.parent == body && is_candidate(all));
+    }
+    return any;
+}
+
+bool ExactLoads::is_candidate(const Sketch& all) {
+    return !all.leans && all.points > 0 && all.points <= most_points &&
+           (all.is_uneven || all.bodies >= tall);
+}
+
+void ExactLoads::gather(const StepProblem& problem, const SoftRows& rows) {
     const std::size_t count = problem.motions.size();
     begins_.assign(count + 1, 0);
     const auto each = [&](auto&& visit) {
         for (std::size_t k = 0; k < problem.active.size(); ++k) {
-            const Contact& c = problem.contacts[problem.active[k]];
-            for (const std::uint32_t body : {c.body_a, c.body_b}) {
-                if (problem.inertias[body].inverse_mass > 0) visit(body, std::uint32_t(k));
-            }
+            const Colouring::Edge& edge = rows.edges()[k];
+            if (!edge.pushes_a && !edge.pushes_b) continue;
+            const std::uint32_t pushed = edge.pushes_a ? edge.body_a : edge.body_b;
+            if (!is_candidate(sketches_[find_root(pushed)])) continue;
+            if (edge.pushes_a) visit(edge.body_a, std::uint32_t(k));
+            if (edge.pushes_b) visit(edge.body_b, std::uint32_t(k));
         }
     };
     each([&](std::uint32_t body, std::uint32_t) { ++begins_[body + 1]; });
@@ -181,20 +231,8 @@ void ExactLoads::order_island(const StepProblem& problem, std::uint32_t first_bo
     }
 }
 
-bool ExactLoads::calls_for_it(const StepProblem& problem) const {
-    const Vec3 up = normalize_or(-problem.gravity, {});
-    bool is_uneven = false;
-    std::size_t points = 0;
-    for (const std::uint32_t k : island_) {
-        const Contact& c = problem.contacts[problem.active[k]];
-        if (absolute(dot(c.normal, up)) < steep) return false;
-        points += std::size_t(c.point_count);
-        if (points > most_points) return false;
-        const float a = problem.inertias[c.body_a].mass;
-        const float b = problem.inertias[c.body_b].mass;
-        is_uneven = is_uneven || (a > 0 && b > 0 && (a > uneven * b || b > uneven * a));
-    }
-    return is_uneven || level_[queue_.back()] >= tall;
+bool ExactLoads::calls_for_it(std::uint32_t body) {
+    return sketches_[find_root(body)].is_uneven || level_[queue_.back()] >= tall;
 }
 
 namespace {

@@ -49,9 +49,20 @@ private:
         bool abandoned = false;  // no answer was found: left to the sweeps
     };
 
-    void gather(const StepProblem& problem);
+    // By body: another of its island, the root being its own; and what the root knows of all.
+    struct Sketch {
+        std::uint32_t parent = 0;
+        std::uint32_t bodies = 1, points = 0;
+        bool leans = false, is_uneven = false;
+    };
+    static bool is_candidate(const Sketch& all);
+    // Marks the islands that may call for it, by what a look at their contacts can tell; false
+    // where there are none.
+    bool find_candidates(const StepProblem& problem, const SoftRows& rows);
+    std::uint32_t find_root(std::uint32_t body);
+    void gather(const StepProblem& problem, const SoftRows& rows);
     void order_island(const StepProblem& problem, std::uint32_t first_body);
-    bool calls_for_it(const StepProblem& problem) const;
+    bool calls_for_it(std::uint32_t body);
     template <int P>
     void list_contact(const StepProblem& problem, std::uint32_t k, SoftRows& rows);
     void list_touches(const StepProblem& problem, SoftRows& rows);
@@ -74,7 +85,8 @@ private:
         return m.data() + (row_[i] - first_[i]);
     }
 
-    // The contacts of each body, as lists by place.
+    std::vector<Sketch> sketches_;
+    // The contacts of each body of a candidate, as lists by place.
     std::vector<std::uint32_t> begins_, members_;
     std::vector<std::uint8_t> seen_;             // by place in active
     std::vector<std::uint32_t> level_;           // by body: contacts from the ground; 0 unseen

@@ -48,8 +48,7 @@ void SoftStep::advance(const StepProblem& problem) {
         hold_impulses(problem);
     }
     store_poses(problem);
-    rows_.store(problem, h);
-    rows_.remember_loads(problem);
+    rows_.store(problem, h, true);
     store_bodies(problem);
 }
 
@@ -69,16 +68,15 @@ void SoftStep::anchor(const StepProblem& problem, float h) {
 
 void SoftStep::anchor_anew(const StepProblem& problem, float h) {
     store_poses(problem);
-    rows_.store(problem, h);
+    rows_.store(problem, h, false);
     anchor(problem, h);
 }
 
 bool SoftStep::has_turned_far() const {
-    for (std::size_t i = 0; i < courses_.size(); ++i) {
-        if (!courses_[i].has_arms) continue;
+    for (const std::uint32_t i : touched_) {
         const Quat& q = bodies_[i].turn;
         const float sine = square(q.x) + square(q.y) + square(q.z);
-        if (sine > square(0.5f * farthest_turn)) return true;
+        if (sine > square(0.5f * farthest_turn) && courses_[i].has_arms) return true;
     }
     return false;
 }
@@ -96,20 +94,19 @@ void SoftStep::take_warm_start(const StepProblem& problem, const SoftKernels& ke
 void SoftStep::load_bodies(const StepProblem& problem) {
     const std::size_t count = problem.motions.size();
     bodies_.assign(count + 2, {});
-    courses_.assign(count, {});
+    courses_.assign(count + 2, {});
     for (const std::uint32_t i : problem.moving) {
         const BodyMotion& motion = problem.motions[i];
         bodies_[i].v = courses_[i].free_v = motion.linear_velocity;
         bodies_[i].w = courses_[i].free_w = motion.angular_velocity;
     }
-    for (const std::uint32_t index : problem.active) {
-        const Contact& contact = problem.contacts[index];
-        courses_[contact.body_a].touched = courses_[contact.body_b].touched = true;
-        // A ball's arms do not turn with it.
-        const float short_arm = 1e-3f * contact.size;
-        const Vec3 core_a = contact.points[0].arm_a.core, core_b = contact.points[0].arm_b.core;
-        if (length_squared(core_a) > square(short_arm)) courses_[contact.body_a].has_arms = true;
-        if (length_squared(core_b) > square(short_arm)) courses_[contact.body_b].has_arms = true;
+    rows_.read_contacts(problem);
+    for (std::size_t k = 0; k < problem.active.size(); ++k) {
+        Course& a = courses_[rows_.edges()[k].body_a];
+        Course& b = courses_[rows_.edges()[k].body_b];
+        a.touched = b.touched = true;
+        if (rows_.links()[k].turns_with_a) a.has_arms = true;
+        if (rows_.links()[k].turns_with_b) b.has_arms = true;
     }
     touched_.clear();
     untouched_.clear();
@@ -124,8 +121,8 @@ void SoftStep::load_bodies(const StepProblem& problem) {
 
 void SoftStep::choose_bouncing(const StepProblem& problem) {
     may_bounce_.clear();
-    for (const std::uint32_t index : problem.active) {
-        if (problem.contacts[index].restitution > 0) may_bounce_.push_back(index);
+    for (std::size_t k = 0; k < problem.active.size(); ++k) {
+        if (rows_.links()[k].bounces) may_bounce_.push_back(problem.active[k]);
     }
     StepProblem some = problem;
     some.active = may_bounce_;
