@@ -22,6 +22,7 @@
 #include "cairn/result.h"
 #include "cairn/settings.h"
 #include "cairn/shape.h"
+#include "cairn/threads.h"
 
 namespace cairn {
 
@@ -43,6 +44,9 @@ public:
 
     const WorldSettings& settings() const;
     Status set_settings(const WorldSettings& settings);
+    /// Which threads may work on a step; copies of the world share them. Never changes a result,
+    /// and a small world stays on the caller's thread. An error for a count out of range.
+    Status set_threads(const Threads& threads);
 
     // Bodies and shapes.
 

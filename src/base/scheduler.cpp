@@ -24,7 +24,7 @@ namespace {
 // first pauses, that many yields, or some hundred microseconds of a stage on one thread.
 constexpr int looks_before_sleep = Patience::pauses + 400;
 
-void run_alone(const Stage& stage) {
+void run_alone(const TeamStage& stage) {
     assert(stage.block_size > 0);
     for (int begin = 0; begin < stage.count;) {
         const int size = std::min(stage.block_size, stage.count - begin);
@@ -66,7 +66,7 @@ public:
     void close() { is_open_.store(false, std::memory_order_release); }
 
     // At most as many stages as the board holds. Only while open, by the opener.
-    void run(std::span<const Stage> stages) {
+    void run(std::span<const TeamStage> stages) {
         const StageBoard::Ticket first = board_.publish(stages);
         Walk walk = {&board_, first, board_.end()};
         if (host_.run != nullptr) {
@@ -169,11 +169,11 @@ Team::~Team() {
     if (scheduler_) scheduler_.get()->close();
 }
 
-void Team::run_stages(std::span<const Stage> stages) {
+void Team::run_stages(std::span<const TeamStage> stages) {
     assert(!running_);
-    const auto has_several_blocks = [](const Stage& s) { return s.count > s.block_size; };
+    const auto has_several_blocks = [](const TeamStage& s) { return s.count > s.block_size; };
     if (worker_count_ == 1 || !std::any_of(stages.begin(), stages.end(), has_several_blocks)) {
-        for (const Stage& stage : stages) run_alone(stage);
+        for (const TeamStage& stage : stages) run_alone(stage);
         return;
     }
     running_ = true;

@@ -32,12 +32,12 @@ using Kernel = FunctionRef<void(int begin, int end, int worker)>;
 
 // A range and what is to be done with it. It refers to the callable, which must outlive the run: a
 // temporary is refused.
-struct Stage {
+struct TeamStage {
     template <class Callable>
-    Stage(int stage_count, int stage_block_size, Callable& callable)
-        : count(stage_count), block_size(stage_block_size), kernel(callable) {}
+    TeamStage(int range, int range_block, Callable& callable)
+        : count(range), block_size(range_block), kernel(callable) {}
     template <class Callable>
-    Stage(int, int, const Callable&&) = delete;
+    TeamStage(int, int, const Callable&&) = delete;
 
     int count;
     int block_size;
@@ -89,13 +89,13 @@ public:
             if (count > 0) kernel(0, count, 0);
             return;
         }
-        const Stage stage(count, block_size, kernel);
+        const TeamStage stage(count, block_size, kernel);
         run_stages({&stage, 1});
     }
 
     // One stage after the other, each over before the next begins. Whatever the number of stages,
     // the workers are called together once.
-    void run_stages(std::span<const Stage> stages);
+    void run_stages(std::span<const TeamStage> stages);
 
 private:
     SharedScheduler scheduler_;

@@ -39,7 +39,7 @@ int StageBoard::first_unit(const View& view, int worker) const {
     return (view.unit_count * worker + worker_count_ - 1) / worker_count_;
 }
 
-StageBoard::View StageBoard::deal_out(const Stage& stage) const {
+StageBoard::View StageBoard::deal_out(const TeamStage& stage) const {
     assert(stage.block_size > 0);
     const int block_count = (stage.count - 1) / stage.block_size + 1;
     View view;
@@ -52,12 +52,12 @@ StageBoard::View StageBoard::deal_out(const Stage& stage) const {
     return view;
 }
 
-StageBoard::Ticket StageBoard::publish(std::span<const Stage> stages) {
+StageBoard::Ticket StageBoard::publish(std::span<const TeamStage> stages) {
     assert(stages.size() <= capacity);
     const Ticket first = end_.load(std::memory_order_relaxed);
     first_.store(first, std::memory_order_release);
     Ticket ticket = first;
-    for (const Stage& stage : stages) {
+    for (const TeamStage& stage : stages) {
         if (stage.count <= 0) continue;
         View view = deal_out(stage);
         done_at_end_ += std::uint64_t(view.unit_count);

@@ -39,7 +39,7 @@ public:
 
     // Hangs up at most `capacity` stages, but for those that are empty. Only when all earlier ones
     // are over, and by one thread at a time. Returns the ticket of the first.
-    Ticket publish(std::span<const Stage> stages);
+    Ticket publish(std::span<const TeamStage> stages);
     // One past the last ticket that was published. A worker reads it to see whether there is work,
     // before it goes to sleep too, which is why it is sequentially consistent.
     Ticket end() const { return end_.load(std::memory_order_seq_cst); }
@@ -79,7 +79,7 @@ private:
     enum class End { Front, Back };
 
     int first_unit(const View& view, int worker) const;
-    View deal_out(const Stage& stage) const;
+    View deal_out(const TeamStage& stage) const;
     void write(Slot& slot, const View& view, Ticket ticket);
     bool read(Ticket ticket, View& view) const;
     int take(Share& share, Ticket ticket, int size, End end, int leave);

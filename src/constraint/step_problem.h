@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <span>
 
+#include "base/scheduler.h"
 #include "body/body.h"
 #include "contact/contact.h"
 
@@ -34,7 +35,16 @@ struct StepProblem {
     int iterations = 1;
     float restitution_threshold = 1;  // m/s
     float contact_compliance = 0;     // m/N
-    int lanes = 0;  // at most so many rows side by side; 0: as many as the machine can
+    int lanes = 0;         // at most so many rows side by side; 0: as many as the machine can
+    Team* team = nullptr;  // who shares the loops whose order does not matter; null: nobody
+
+    // kernel(begin, end) over blocks of [0, count).
+    template <class Kernel>
+    void for_range(std::size_t count, int block_size, Kernel&& kernel) const {
+        if (!team) return kernel(0, int(count));
+        team->for_range(int(count), block_size,
+                        [&](int begin, int end, int) { kernel(begin, end); });
+    }
 };
 
 }  // namespace cairn

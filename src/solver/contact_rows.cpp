@@ -103,14 +103,14 @@ void prepare_rows(const StepProblem& problem, std::vector<ContactRows>& rows) {
 
 void find_responses(const StepProblem& problem, std::vector<Response>& responses) {
     responses.resize(problem.motions.size());
-    for (std::size_t i = 0; i < responses.size(); ++i) {
-        if (problem.inertias[i].inverse_mass == 0) {
-            responses[i] = {};
-        } else {
-            responses[i] =
-                find_response(problem.inertias[i], problem.drives[i], problem.motions[i].rotation);
+    problem.for_range(responses.size(), 64, [&](int begin, int end) {
+        for (auto i = std::size_t(begin); i < std::size_t(end); ++i) {
+            responses[i] = problem.inertias[i].inverse_mass == 0
+                               ? Response{}
+                               : find_response(problem.inertias[i], problem.drives[i],
+                                               problem.motions[i].rotation);
         }
-    }
+    });
 }
 
 void refresh_rows(const StepProblem& problem, std::span<const Response> responses,

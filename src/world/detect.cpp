@@ -97,6 +97,47 @@ float speculative_distance(const WorldState& world, const ShapeRecord& a, const 
            turning_reach(world, a, h) + turning_reach(world, b, h);
 }
 
+// Where the shape is, with what it may reach.
+void place_proxy(const WorldState& world, float h, Proxy& proxy) {
+    const ShapeRecord& shape = world.shapes[proxy.id];
+    const std::uint32_t body = shape.body;
+    const Quat rotation = shape_rotation(world, shape);
+    const Position center = world.positions[body] + shape_offset(world, shape);
+    Vec3 half = bounds_half_extents(shape.def.geometry, to_matrix(rotation));
+    proxy.moves = world.drives[body].kind != BodyKind::Static && !world.bodies[body].frozen;
+    if (!is_plane(shape.def.geometry)) {
+        float margin = skin_share * shape.size;
+        if (proxy.moves) {
+            const float speed = length(world.motions[body].linear_velocity);
+            margin += h * speed + turning_reach(world, shape, h) + fall_in(world, h);
+        }
+        half = half + Vec3{margin, margin, margin};
+    }
+    proxy.box = box_around(center, half);
+}
+
+// Shapes, bodies and pairs are shared out in blocks of so many: some microseconds' work.
+constexpr int shapes_a_block = 64;
+constexpr int bodies_a_block = 128;
+constexpr int searches_a_block = 16;
+
+void update_way(WorldState& world, std::uint32_t body, float h, float fall) {
+    BodyWay& way = world.ways[body];
+    const BodyPlace place = place_of(world, body);
+    const BodyMotion& motion = world.motions[body];
+    const Vec3 moved = place.position - way.place.position;
+    if (moved != Vec3{}) way.gone += double(length(moved));
+    if (place.rotation != way.place.rotation) {
+        // A turn moves a point by the chord over its arm.
+        way.gone +=
+            2.0 * double(length(half_turn(place.rotation, way.place.rotation))) * double(way.reach);
+    }
+    way.place = place;
+    way.horizon = way.gone + double(h * length(motion.linear_velocity) + fall);
+    if (motion.angular_velocity != Vec3{})
+        way.horizon += double(min(h * length(motion.angular_velocity), 2.0f) * way.reach);
+}
+
 // The box with room for some steps more.
 Aabb fatten(const WorldState& world, const Proxy& proxy, float dt) {
     if (!proxy.moves) return proxy.box;
@@ -131,30 +172,32 @@ void update_tree(WorldState& world, float dt, std::span<const Proxy> proxies) {
     world.tree.insert_many(added);
 }
 
+void find_new_pairs(WorldState& world, Team& team) {
+    WorldState::Scratch& scratch = world.scratch;
+    auto& parts = scratch.found_parts;
+    parts.resize(std::size_t(team.worker_count()));
+    for (std::vector<Pair>& part : parts) part.clear();
+    const std::size_t count = world.tree.prepare_search();
+    team.for_range(int(count), searches_a_block, [&](int begin, int end, int worker) {
+        world.tree.search(std::size_t(begin), std::size_t(end), parts[std::size_t(worker)]);
+    });
+    // Sorted at the end, so that it does not matter who found what.
+    scratch.found_pairs.clear();
+    for (const std::vector<Pair>& part : parts)
+        scratch.found_pairs.insert(scratch.found_pairs.end(), part.begin(), part.end());
+    world.tree.finish_search(scratch.found_pairs);
+}
+
 }  // namespace
 
-void update_proxies(const WorldState& world, double dt, std::vector<Proxy>& proxies) {
+void update_proxies(const WorldState& world, Team& team, double dt, std::vector<Proxy>& proxies) {
     proxies.clear();
-    const auto h = float(dt);
     for (std::uint32_t slot = 0; slot < world.shapes.size(); ++slot) {
-        const ShapeRecord& shape = world.shapes[slot];
-        if (!shape.alive) continue;
-        const std::uint32_t body = shape.body;
-        const Quat rotation = shape_rotation(world, shape);
-        const Position center = world.positions[body] + shape_offset(world, shape);
-        Vec3 half = bounds_half_extents(shape.def.geometry, to_matrix(rotation));
-        const bool moves =
-            world.drives[body].kind != BodyKind::Static && !world.bodies[body].frozen;
-        if (!is_plane(shape.def.geometry)) {
-            float margin = skin_share * shape.size;
-            if (moves) {
-                const float speed = length(world.motions[body].linear_velocity);
-                margin += h * speed + turning_reach(world, shape, h) + fall_in(world, h);
-            }
-            half = half + Vec3{margin, margin, margin};
-        }
-        proxies.push_back({box_around(center, half), slot, moves});
+        if (world.shapes[slot].alive) proxies.push_back({{}, slot, false});
     }
+    team.for_range(int(proxies.size()), shapes_a_block, [&](int begin, int end, int) {
+        for (int i = begin; i < end; ++i) place_proxy(world, float(dt), proxies[std::size_t(i)]);
+    });
 }
 
 void find_all_pairs(const WorldState& world, BruteForce& broad, std::span<const Proxy> proxies,
@@ -163,11 +206,11 @@ void find_all_pairs(const WorldState& world, BruteForce& broad, std::span<const 
     std::erase_if(pairs, [&](const Pair& pair) { return !may_touch(world, pair); });
 }
 
-void find_tree_pairs(WorldState& world, double dt, std::span<const Proxy> proxies,
+void find_tree_pairs(WorldState& world, Team& team, double dt, std::span<const Proxy> proxies,
                      std::vector<Pair>& pairs) {
     update_tree(world, float(dt), proxies);
     WorldState::Scratch& scratch = world.scratch;
-    world.tree.find_new_pairs(scratch.found_pairs);
+    find_new_pairs(world, team);
     std::erase_if(world.fat_pairs,
                   [&](const Pair& pair) { return !world.tree.make_pair(pair.a, pair.b); });
     // A pair is told again when one of its two has left its box.
@@ -187,26 +230,13 @@ void find_tree_pairs(WorldState& world, double dt, std::span<const Proxy> proxie
     }
 }
 
-void update_ways(WorldState& world, double dt) {
+void update_ways(WorldState& world, Team& team, double dt) {
     const auto h = float(dt);
     const float fall = fall_in(world, h);
-    for (const std::uint32_t body : world.scratch.moving) {
-        BodyWay& way = world.ways[body];
-        const BodyPlace place = place_of(world, body);
-        const BodyMotion& motion = world.motions[body];
-        const Vec3 moved = place.position - way.place.position;
-        if (moved != Vec3{}) way.gone += double(length(moved));
-        if (place.rotation != way.place.rotation) {
-            // A turn moves a point by the chord over its arm.
-            way.gone += 2.0 * double(length(half_turn(place.rotation, way.place.rotation))) *
-                        double(way.reach);
-        }
-        way.place = place;
-        way.horizon = way.gone + double(h * length(motion.linear_velocity) + fall);
-        if (motion.angular_velocity != Vec3{}) {
-            way.horizon += double(min(h * length(motion.angular_velocity), 2.0f) * way.reach);
-        }
-    }
+    const auto& moving = world.scratch.moving;
+    team.for_range(int(moving.size()), bodies_a_block, [&](int begin, int end, int) {
+        for (int i = begin; i < end; ++i) update_way(world, moving[std::size_t(i)], h, fall);
+    });
 }
 
 bool is_apart(const WorldState& world, const PairRecord& pair) {

@@ -7,17 +7,17 @@
 namespace cairn {
 
 // One proxy a living shape: its box, grown by what the shape may reach in dt seconds.
-void update_proxies(const WorldState& world, double dt, std::vector<Proxy>& proxies);
+void update_proxies(const WorldState& world, Team& team, double dt, std::vector<Proxy>& proxies);
 
 // The pairs of shapes that may touch: boxes overlap, bodies differ, filters agree. Sorted, and the
 // same whichever broad phase finds them: the tree's pairs of fat boxes are put to the same test.
 void find_all_pairs(const WorldState& world, BruteForce& broad, std::span<const Proxy> proxies,
                     std::vector<Pair>& pairs);
-void find_tree_pairs(WorldState& world, double dt, std::span<const Proxy> proxies,
+void find_tree_pairs(WorldState& world, Team& team, double dt, std::span<const Proxy> proxies,
                      std::vector<Pair>& pairs);
 
 // How far each moving body has gone since it was there, and may go in this step.
-void update_ways(WorldState& world, double dt);
+void update_ways(WorldState& world, Team& team, double dt);
 // Whether a pair that was apart cannot have come within reach since, nor come there in this step.
 bool is_apart(const WorldState& world, const PairRecord& pair);
 // The shapes were just measured to be so far apart.

@@ -88,7 +88,8 @@ std::vector<ContactReport> World::contacts() const {
     std::vector<Proxy> proxies;
     std::vector<Pair> pairs;
     std::vector<ContactReport> reports;
-    update_proxies(world, world.last_dt, proxies);
+    Team alone{SharedScheduler()};
+    update_proxies(world, alone, world.last_dt, proxies);
     BruteForce broad;
     find_all_pairs(world, broad, proxies, pairs);
     for (const Pair& pair : pairs) {

@@ -2,6 +2,7 @@
 
 #include "world/stages.h"
 
+#include <algorithm>
 #include <chrono>
 
 #include "world/detect.h"
@@ -79,6 +80,42 @@ bool is_touching(const Contact& contact) {
     return false;
 }
 
+// The axis of a pair, or its points from an earlier step's.
+void find_axis_of_pair(WorldState& world, double dt, std::uint32_t place,
+                       std::vector<Meeting>& meetings) {
+    PairRecord& pair = world.contacts.pairs()[place];
+    const bool may_follow = world.settings.step.reuse_contacts;
+    const bool has_contact = pair.contact != ContactStore::none;
+    pair.meets = has_contact && may_follow && follow_contact(world, pair);
+    if (pair.meets || (!has_contact && may_follow && is_apart(world, pair))) return;
+    Meeting& meeting = meetings.emplace_back();
+    meeting.pair = place;
+    const bool is_found = find_meeting(world, pair.shape_a, pair.shape_b, dt, pair.hint, meeting);
+    pair.meets = is_found && meeting.axis.separation <= meeting.within;
+    if (pair.meets) return;
+    if (is_found) remember_apart(world, pair, meeting.axis.separation);
+    if (has_contact) clear_contact(world.contacts[pair.contact]);
+    meetings.pop_back();
+}
+
+// The points of a pair where its axis says that the shapes meet, in place of the last step's.
+void find_points(WorldState& world, const Meeting& meeting) {
+    PairRecord& pair = world.contacts.pairs()[meeting.pair];
+    Contact& contact = world.contacts[pair.contact];
+    std::array<ContactPoint, 4> points;
+    const int count = build_contact_points(world, meeting, meeting.within, contact, points);
+    match_points(contact, std::span(points).first(std::size_t(count)));
+    pair.meets = count > 0;
+    if (count == 0) clear_contact(contact);
+    // Shapes that move together touch before they overlap; these were put there overlapping.
+    if (!contact.touching) contact.first_overlap = max(0, -meeting.axis.separation);
+    remember_contact(world, pair, meeting);
+}
+
+// Pairs, and those of them that meet, are shared out in blocks of so many: some microseconds' work.
+constexpr int pairs_a_block = 128;
+constexpr int meetings_a_block = 32;
+
 ContactEvent make_event(const WorldState& world, const Contact& contact, ContactEventKind kind) {
     return {kind, body_id(world, contact.body_a), body_id(world, contact.body_b),
             shape_id(world, contact.shape_a), shape_id(world, contact.shape_b)};
@@ -126,12 +163,12 @@ void apply_changes(WorldState& world, double dt) {
 }
 
 // Reads poses and velocities; renews the list of contacts, ends those whose boxes parted.
-void find_pairs(WorldState& world, double dt) {
+void find_pairs(WorldState& world, Team& team, double dt) {
     const StageTimer timer(world, Stage::FindPairs);
-    update_proxies(world, dt, world.scratch.proxies);
+    update_proxies(world, team, dt, world.scratch.proxies);
     WorldState::Scratch& scratch = world.scratch;
     if (world.settings.step.broad_phase == BroadPhase::Tree) {
-        find_tree_pairs(world, dt, scratch.proxies, scratch.pairs);
+        find_tree_pairs(world, team, dt, scratch.proxies, scratch.pairs);
     } else {
         find_all_pairs(world, scratch.broad, scratch.proxies, scratch.pairs);
     }
@@ -145,47 +182,38 @@ void find_pairs(WorldState& world, double dt) {
 
 // Reads the listed pairs; writes the axis of each that is within reach, and brings contacts to the
 // present whose bodies hardly moved against each other.
-void find_axes(WorldState& world, double dt) {
+void find_axes(WorldState& world, Team& team, double dt) {
     const StageTimer timer(world, Stage::FindAxes);
-    const bool may_follow = world.settings.step.reuse_contacts;
+    update_ways(world, team, dt);
+    const std::size_t count = world.contacts.pairs().size();
     auto& meetings = world.scratch.meetings;
-    meetings.clear();
-    update_ways(world, dt);
-    std::uint32_t place = 0;
-    for (PairRecord& pair : world.contacts.pairs()) {
-        const std::uint32_t index = place++;
-        const bool has_contact = pair.contact != ContactStore::none;
-        pair.meets = has_contact && may_follow && follow_contact(world, pair);
-        if (pair.meets || (!has_contact && may_follow && is_apart(world, pair))) continue;
-        Meeting& meeting = meetings.emplace_back();
-        meeting.pair = index;
-        const bool is_found =
-            find_meeting(world, pair.shape_a, pair.shape_b, dt, pair.hint, meeting);
-        pair.meets = is_found && meeting.axis.separation <= meeting.within;
-        if (pair.meets) continue;
-        if (is_found) remember_apart(world, pair, meeting.axis.separation);
-        if (has_contact) clear_contact(world.contacts[pair.contact]);
-        meetings.pop_back();
+    meetings.resize(std::max(meetings.size(), count / pairs_a_block + 1));
+    for (auto& block : meetings) block.clear();
+    team.for_range(int(count), pairs_a_block, [&](int begin, int end, int) {
+        // One block, or all of them on one thread.
+        for (int i = begin; i < end; ++i)
+            find_axis_of_pair(world, dt, std::uint32_t(i),
+                              meetings[std::size_t(i / pairs_a_block)]);
+    });
+    auto& listed = world.scratch.listed_meetings;
+    listed.clear();
+    for (const auto& block : meetings) {
+        for (const Meeting& meeting : block) listed.push_back(&meeting);
     }
 }
 
 // Reads axes; writes the normal and points of each contact, and lists the contacts that have any.
-void build_manifolds(WorldState& world) {
+void build_manifolds(WorldState& world, Team& team) {
     const StageTimer timer(world, Stage::BuildManifolds);
-    for (const Meeting& meeting : world.scratch.meetings) {
-        PairRecord& pair = world.contacts.pairs()[meeting.pair];
+    const auto& meetings = world.scratch.listed_meetings;
+    for (const Meeting* meeting : meetings) {
+        PairRecord& pair = world.contacts.pairs()[meeting->pair];
         if (pair.contact == ContactStore::none)
             describe_contact(world, world.contacts.add_contact(pair));
-        Contact& contact = world.contacts[pair.contact];
-        std::array<ContactPoint, 4> points;
-        const int count = build_contact_points(world, meeting, meeting.within, contact, points);
-        match_points(contact, std::span(points).first(std::size_t(count)));
-        pair.meets = count > 0;
-        if (count == 0) clear_contact(contact);
-        // Shapes that move together touch before they overlap; these were put there overlapping.
-        if (!contact.touching) contact.first_overlap = max(0, -meeting.axis.separation);
-        remember_contact(world, pair, meeting);
     }
+    team.for_range(int(meetings.size()), meetings_a_block, [&](int begin, int end, int) {
+        for (int i = begin; i < end; ++i) find_points(world, *meetings[std::size_t(i)]);
+    });
     auto& active = world.scratch.active;
     active.clear();
     std::size_t point_count = 0;
@@ -200,7 +228,7 @@ void build_manifolds(WorldState& world) {
 }
 
 // Reads everything above; writes velocities, rotations, displacements and impulses.
-void advance(WorldState& world, double dt) {
+void advance(WorldState& world, Team& team, double dt) {
     const StageTimer timer(world, Stage::Solve);
     const StepSettings& step = world.settings.step;
     const StepProblem problem = {
@@ -218,6 +246,7 @@ void advance(WorldState& world, double dt) {
         .restitution_threshold = world.settings.restitution_threshold,
         .contact_compliance = step.contact_compliance,
         .lanes = step.lanes,
+        .team = &team,
     };
     std::visit([&](auto& method) { method.advance(problem); }, world.solver);
 }

@@ -6,10 +6,10 @@
 namespace cairn {
 
 void apply_changes(WorldState& world, double dt);
-void find_pairs(WorldState& world, double dt);
-void find_axes(WorldState& world, double dt);
-void build_manifolds(WorldState& world);
-void advance(WorldState& world, double dt);
+void find_pairs(WorldState& world, Team& team, double dt);
+void find_axes(WorldState& world, Team& team, double dt);
+void build_manifolds(WorldState& world, Team& team);
+void advance(WorldState& world, Team& team, double dt);
 void move_bodies(WorldState& world);
 void report_contacts(WorldState& world);
 

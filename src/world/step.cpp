@@ -7,16 +7,31 @@
 
 namespace cairn {
 
+namespace {
+
+// Bodies and pairs of the last step from which on a step is worth sharing: a fraction of a
+// millisecond's work.
+constexpr std::size_t worth_sharing = 1500;
+
+const SharedScheduler& choose_scheduler(const WorldState& world) {
+    static const SharedScheduler nobody;
+    const std::size_t work = world.scratch.moving.size() + world.contacts.pairs().size();
+    return work < worth_sharing ? nobody : world.scheduler;
+}
+
+}  // namespace
+
 void step_world(WorldState& world, double dt) {
     const FloatEnvironment ieee;
+    Team team(choose_scheduler(world));  // who shares the loops below
 
-    apply_changes(world, dt);  // the user's forces; what is not finite is frozen here
-    find_pairs(world, dt);     // broad phase: which boxes overlap
-    find_axes(world, dt);      // narrow phase: along which direction two shapes meet
-    build_manifolds(world);    // contact points, with the impulses of the last step
-    advance(world, dt);        // integrate, solve, correct: the exchangeable method
-    move_bodies(world);        // displacements become positions; what went wrong is frozen
-    report_contacts(world);    // which contacts began, which ended
+    apply_changes(world, dt);      // the user's forces; what is not finite is frozen here
+    find_pairs(world, team, dt);   // broad phase: which boxes overlap
+    find_axes(world, team, dt);    // narrow phase: along which direction two shapes meet
+    build_manifolds(world, team);  // contact points, with the impulses of the last step
+    advance(world, team, dt);      // integrate, solve, correct: the exchangeable method
+    move_bodies(world);            // displacements become positions; what went wrong is frozen
+    report_contacts(world);        // which contacts began, which ended
 }
 
 }  // namespace cairn

@@ -174,6 +174,13 @@ Status World::set_settings(const WorldSettings& settings) {
     return Done{};
 }
 
+Status World::set_threads(const Threads& threads) {
+    Result<SharedScheduler> scheduler = make_scheduler(threads);
+    if (!scheduler) return tell(*state_, "set_threads", scheduler.error());
+    state_->scheduler = std::move(*scheduler);
+    return Done{};
+}
+
 Result<BodyId> World::create_body(const BodyDef& def) {
     const FloatEnvironment ieee;
     WorldState& world = *state_;

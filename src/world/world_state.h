@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/scheduler.h"
 #include "broad/brute_force.h"
 #include "broad/tree_pairs.h"
 #include "cairn/world.h"
@@ -64,6 +65,7 @@ struct WorldState {
     WorldSettings settings;
     std::function<void(const Error&)> on_error;
     SolverState solver;
+    SharedScheduler scheduler;  // copies share it
 
     // By body slot.
     std::vector<BodyRecord> bodies;
@@ -93,10 +95,12 @@ struct WorldState {
         std::vector<Proxy> proxies;
         BruteForce broad;
         std::vector<Pair> pairs, found_pairs, merged_pairs;
+        std::vector<std::vector<Pair>> found_parts;  // by worker
         std::vector<Proxy> new_proxies;
         std::vector<std::uint32_t> proxy_places;  // by shape slot
         std::vector<std::uint32_t> moving;
-        std::vector<Meeting> meetings;
+        std::vector<std::vector<Meeting>> meetings;  // by block of pairs
+        std::vector<const Meeting*> listed_meetings;
         std::vector<std::uint32_t> active;
         std::vector<BodyMotion> before;
         std::vector<float> heights;

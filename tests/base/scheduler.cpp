@@ -134,7 +134,7 @@ TEST_CASE("nothing of a stage begins before all of the stage before it is done")
         std::vector<unsigned> odd(size, 0);
         const Ring to_odd = {&even, &odd};
         const Ring to_even = {&odd, &even};
-        std::vector<Stage> stages;
+        std::vector<TeamStage> stages;
         for (int k = 0; k < stage_count; ++k) {
             const int block_size = k % 7 == 0 ? size : 1 + k % 5;
             stages.emplace_back(size, block_size, k % 2 == 0 ? to_odd : to_even);
@@ -169,7 +169,7 @@ TEST_CASE("a stage is over for those who come late: the counts of all stages add
     };
     std::vector<Check> checks;
     for (int k = 0; k < 600; ++k) checks.push_back({k, &ended, &too_early});
-    std::vector<Stage> stages;
+    std::vector<TeamStage> stages;
     for (const Check& check : checks) stages.emplace_back(blocks, 1, check);
     const SharedScheduler scheduler = scheduler_of(4);
     Team(scheduler).run_stages(stages);
@@ -199,7 +199,7 @@ TEST_CASE("ten thousand short runs in a row are each done") {
     const auto add = [&](int begin, int end, int) {
         for (int i = begin; i < end; ++i) ++sums[std::size_t(i)];
     };
-    const std::vector<Stage> stages = {Stage(12, 4, add), Stage(12, 5, add)};
+    const std::vector<TeamStage> stages = {TeamStage(12, 4, add), TeamStage(12, 5, add)};
     for (int run = 0; run < 5000; ++run) {
         // Now within one team, now each with its own.
         Team team(scheduler);
@@ -239,7 +239,7 @@ TEST_CASE("a range of one block is the caller's, and wakes nobody") {
         calls += std::this_thread::get_id() == caller && begin == 0 && end == 5 && worker == 0;
     };
     team.for_range(5, 5, note);
-    const std::vector<Stage> stages(9, Stage(5, 8, note));
+    const std::vector<TeamStage> stages(9, TeamStage(5, 8, note));
     team.run_stages(stages);
     CHECK(calls == 10);
 }
@@ -312,7 +312,7 @@ TEST_CASE("more threads than cores get on") {
     const auto add = [&](int begin, int end, int) {
         for (int i = begin; i < end; ++i) ++sums[std::size_t(i)];
     };
-    const std::vector<Stage> stages(100, Stage(64, 2, add));
+    const std::vector<TeamStage> stages(100, TeamStage(64, 2, add));
     for (int step = 0; step < 5; ++step) Team(scheduler).run_stages(stages);
     is_over = true;
     first.join();
@@ -395,7 +395,7 @@ TEST_CASE("a host's threads do the work, in whichever order it runs the jobs, or
         CHECK(calls == 1);
         std::atomic<int> met{0};
         const auto add = [&](int begin, int end, int) { met += end - begin; };
-        const std::vector<Stage> stages(20, Stage(30, 4, add));
+        const std::vector<TeamStage> stages(20, TeamStage(30, 4, add));
         team.run_stages(stages);
         CHECK(met == 600);
         CHECK(calls == 2);

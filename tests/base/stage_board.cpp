@@ -36,7 +36,7 @@ TEST_CASE(
     "a worker goes through its own share from the front, then through others' from the back") {
     std::vector<Taken> taken;
     const Record record = {&taken};
-    const std::vector<Stage> stage(1, Stage(8, 1, record));
+    const std::vector<TeamStage> stage(1, TeamStage(8, 1, record));
     StageBoard board(2);
 
     board.work_on(board.publish(stage), 0);
@@ -49,7 +49,7 @@ TEST_CASE(
 TEST_CASE("who was at the stage before keeps its last block until the others have nothing else") {
     std::vector<Taken> taken;
     const Record record = {&taken};
-    const std::vector<Stage> stage(1, Stage(6, 1, record));
+    const std::vector<TeamStage> stage(1, TeamStage(6, 1, record));
     StageBoard board(3);
 
     // Only worker 1 comes to the first; then it is about, and worker 2 is not.
@@ -69,7 +69,7 @@ TEST_CASE("one block is the caller's, and shares differ by one block at most") {
     const Record record = {&taken};
     StageBoard board(3);
     const auto blocks_in_share = [&](int block_count, int worker) {
-        const std::vector<Stage> stage(1, Stage(block_count, 1, record));
+        const std::vector<TeamStage> stage(1, TeamStage(block_count, 1, record));
         taken.clear();
         board.work_on(board.publish(stage), worker);
         // Its own come in rising order, before the first that is not.
@@ -90,8 +90,8 @@ TEST_CASE("who comes late, by however much, finds nothing to do and is soon at t
     std::vector<Taken> taken;
     const Record record = {&taken};
     StageBoard board(2);
-    const std::vector<Stage> few(3, Stage(10, 2, record));
-    const std::vector<Stage> many(StageBoard::capacity, Stage(4, 1, record));
+    const std::vector<TeamStage> few(3, TeamStage(10, 2, record));
+    const std::vector<TeamStage> many(StageBoard::capacity, TeamStage(4, 1, record));
     const auto work_through = [&](StageBoard::Ticket first, int worker) {
         int looks = 0;
         while (first < board.end()) first = board.work_on(first, worker), ++looks;

@@ -265,6 +265,8 @@ void remember_load(Contact& contact) {
     contact.remembered_load = min(before + learning_share * (force - before), force);
 }
 
+// Contacts are read, filled in and stored in blocks of so many, some microseconds' work.
+constexpr int contacts_a_block = 64;
 // Contacts lie far apart in memory: each is asked for some time before it is used.
 constexpr std::size_t far_ahead = 6;
 void prefetch(const Contact& contact) {
@@ -286,33 +288,36 @@ void SoftRows::read_contacts(const StepProblem& problem) {
     const std::size_t count = problem.active.size();
     links_.resize(count);
     edges_.resize(count);
-    for (std::size_t k = 0; k < count; ++k) {
-        const Contact& contact = problem.contacts[problem.active[k]];
-        links_[k] = {.kind = kind_of(problem, contact),
-                     .point_count = std::uint8_t(contact.point_count),
-                     .bounces = contact.restitution > 0,
-                     .turns_with_a = contact.turns_with_a,
-                     .turns_with_b = contact.turns_with_b,
-                     .upright = absolute(dot(contact.normal, up))};
-        edges_[k] = {contact.body_a, contact.body_b,
-                     problem.inertias[contact.body_a].inverse_mass > 0,
-                     problem.inertias[contact.body_b].inverse_mass > 0};
-    }
+    problem.for_range(count, contacts_a_block, [&](int begin, int end) {
+        for (auto k = std::size_t(begin); k < std::size_t(end); ++k) {
+            const Contact& contact = problem.contacts[problem.active[k]];
+            links_[k] = {.kind = kind_of(problem, contact),
+                         .point_count = std::uint8_t(contact.point_count),
+                         .bounces = contact.restitution > 0,
+                         .turns_with_a = contact.turns_with_a,
+                         .turns_with_b = contact.turns_with_b,
+                         .upright = absolute(dot(contact.normal, up))};
+            edges_[k] = {contact.body_a, contact.body_b,
+                         problem.inertias[contact.body_a].inverse_mass > 0,
+                         problem.inertias[contact.body_b].inverse_mass > 0};
+        }
+    });
 }
 
 SoftRows::Place SoftRows::take_lane(RowKind kind, std::size_t colour_begin, std::uint32_t nobody) {
     RowArray& rows = array(kind);
     std::uint32_t& free = free_lanes_[std::size_t(kind)];
     if (rows.count() == colour_begin || free == rows.width()) {
-        rows.add_row(nobody, nobody + 1);
+        const std::size_t block =
+            (rows.count() - colour_begin) / std::size_t(rows_a_block(int(rows.width())));
+        spare_bodies_ = std::max(spare_bodies_, block + 2);
+        rows.add_row(nobody, nobody + 1 + std::uint32_t(block));
         free = 0;
     }
     return {kind, std::uint32_t(rows.count() - 1), free++};
 }
 
-void SoftRows::build(const StepProblem& problem, std::span<const Response> responses, float h,
-                     float part, int width) {
-    colouring_.colour(edges_, problem.motions.size(), colours_);
+void SoftRows::give_places(const StepProblem& problem, int width) {
     for (std::size_t k = 0; k < row_kind_count; ++k) {
         const auto kind = RowKind(k);
         const bool special = is_special(kind);
@@ -321,36 +326,23 @@ void SoftRows::build(const StepProblem& problem, std::span<const Response> respo
     }
     batches_.clear();
     places_.resize(problem.active.size());
-    // Two places after the bodies: one that stands still, one that may be written by anybody.
+    spare_bodies_ = 2;
     const auto nobody = std::uint32_t(problem.motions.size());
-    std::uint32_t place_in_order = 0;
-    const auto last_place = std::uint32_t(colours_.order.size() - 1);
     for (std::size_t c = 0; c < colours_.count(); ++c) {
         std::array<std::size_t, row_kind_count> begins;
         for (std::size_t k = 0; k < row_kind_count; ++k) begins[k] = arrays_[k].count();
         for (const std::uint32_t k : colours_[c]) {
-            const std::uint32_t ahead =
-                std::min(place_in_order + std::uint32_t(far_ahead), last_place);
-            prefetch(problem.contacts[problem.active[colours_.order[ahead]]]);
-            ++place_in_order;
-            const Contact& contact = problem.contacts[problem.active[k]];
             const RowKind kind = links_[k].kind;
             const Place place = take_lane(kind, begins[std::size_t(kind)], nobody);
             places_[k] = place;
             RowArray& rows = array(kind);
+            const Colouring::Edge& edge = edges_[k];
             const std::size_t lane = place.row * rows.width() + place.lane;
             rows.contacts[lane] = problem.active[k];
-            rows.read_a[lane] = contact.body_a;
-            rows.read_b[lane] = contact.body_b;
-            if (edges_[k].pushes_a) rows.write_a[lane] = contact.body_a;
-            if (edges_[k].pushes_b) rows.write_b[lane] = contact.body_b;
-            if (points_of(kind) == 1) {
-                put_lane(rows, place.row, place.lane,
-                         RowFiller<1>(problem, responses, contact, h, part).fill());
-            } else {
-                put_lane(rows, place.row, place.lane,
-                         RowFiller<4>(problem, responses, contact, h, part).fill());
-            }
+            rows.read_a[lane] = edge.body_a;
+            rows.read_b[lane] = edge.body_b;
+            if (edge.pushes_a) rows.write_a[lane] = edge.body_a;
+            if (edge.pushes_b) rows.write_b[lane] = edge.body_b;
         }
         for (std::size_t k = 0; k < row_kind_count; ++k) {
             if (arrays_[k].count() > begins[k])
@@ -359,19 +351,52 @@ void SoftRows::build(const StepProblem& problem, std::span<const Response> respo
     }
 }
 
-void SoftRows::store(const StepProblem& problem, float h, bool ends_step) const {
-    for (std::size_t k = 0; k < places_.size(); ++k) {
+void SoftRows::build(const StepProblem& problem, std::span<const Response> responses, float h,
+                     float part, int width) {
+    colouring_.colour(edges_, problem.motions.size(), colours_);
+    give_places(problem, width);
+    // In the order of the rows, so that what is written lies together.
+    problem.for_range(colours_.order.size(), contacts_a_block, [&](int begin, int end) {
+        fill(problem, responses, h, part,
+             std::span(colours_.order).subspan(std::size_t(begin), std::size_t(end - begin)));
+    });
+}
+
+void SoftRows::fill(const StepProblem& problem, std::span<const Response> responses, float h,
+                    float part, std::span<const std::uint32_t> places_in_active) {
+    for (std::size_t i = 0; i < places_in_active.size(); ++i) {
+        const std::size_t ahead = std::min(i + far_ahead, places_in_active.size() - 1);
+        prefetch(problem.contacts[problem.active[places_in_active[ahead]]]);
+        const std::uint32_t k = places_in_active[i];
+        const Contact& contact = problem.contacts[problem.active[k]];
         const Place place = places_[k];
-        const RowArray& rows = arrays_[std::size_t(place.kind)];
-        Contact& contact = problem.contacts[problem.active[k]];
-        prefetch(problem.contacts[problem.active[std::min(k + far_ahead, places_.size() - 1)]]);
+        RowArray& rows = array(place.kind);
         if (points_of(place.kind) == 1) {
-            store_row<1>(rows, place, h, contact);
+            put_lane(rows, place.row, place.lane,
+                     RowFiller<1>(problem, responses, contact, h, part).fill());
         } else {
-            store_row<4>(rows, place, h, contact);
+            put_lane(rows, place.row, place.lane,
+                     RowFiller<4>(problem, responses, contact, h, part).fill());
         }
-        if (ends_step) remember_load(contact);
     }
+}
+
+void SoftRows::store(const StepProblem& problem, float h, bool ends_step) const {
+    problem.for_range(places_.size(), contacts_a_block, [&](int begin, int end) {
+        for (auto k = std::size_t(begin); k < std::size_t(end); ++k) {
+            const Place place = places_[k];
+            const RowArray& rows = arrays_[std::size_t(place.kind)];
+            Contact& contact = problem.contacts[problem.active[k]];
+            const std::size_t ahead = std::min(k + far_ahead, places_.size() - 1);
+            prefetch(problem.contacts[problem.active[ahead]]);
+            if (points_of(place.kind) == 1) {
+                store_row<1>(rows, place, h, contact);
+            } else {
+                store_row<4>(rows, place, h, contact);
+            }
+            if (ends_step) remember_load(contact);
+        }
+    });
 }
 
 }  // namespace cairn

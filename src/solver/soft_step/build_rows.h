@@ -45,12 +45,20 @@ public:
 
     std::span<const Batch> batches() const { return batches_; }
     RowRange range(const Batch& batch);
+    // Rows of a batch are shared out in blocks of so many, about a microsecond's work.
+    static int rows_a_block(int width) { return width < 64 ? 64 / width : 1; }
+    // Places after the bodies: one that stands still, and one that may be written for each block
+    // of the largest batch.
+    std::size_t spare_bodies() const { return spare_bodies_; }
     RowArray& array(RowKind kind) { return arrays_[std::size_t(kind)]; }
     // By place in problem.active.
     std::span<const Place> places() const { return places_; }
 
 private:
+    void give_places(const StepProblem& problem, int width);
     Place take_lane(RowKind kind, std::size_t colour_begin, std::uint32_t nobody);
+    void fill(const StepProblem& problem, std::span<const Response> responses, float h, float part,
+              std::span<const std::uint32_t> places_in_active);
 
     std::vector<Link> links_;
     std::vector<Colouring::Edge> edges_;
@@ -59,6 +67,7 @@ private:
     std::array<RowArray, row_kind_count> arrays_;
     std::array<std::uint32_t, row_kind_count> free_lanes_ = {};
     std::vector<Batch> batches_;
+    std::size_t spare_bodies_ = 2;
     std::vector<Place> places_;
 };
 

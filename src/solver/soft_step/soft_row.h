@@ -112,7 +112,8 @@ public:
     float& operator[](std::size_t place) { return numbers_[place]; }
     float operator[](std::size_t place) const { return numbers_[place]; }
 
-    // Adds a row of idle lanes that read `still` and write `nowhere`.
+    // Adds a row of idle lanes that read `still` and write `nowhere`; no two rows that are worked
+    // on at once may write the same.
     std::size_t add_row(std::uint32_t still, std::uint32_t nowhere) {
         numbers_.resize(numbers_.size() + stride_, 0.0f);
         const std::size_t lanes = contacts.size() + width_;

@@ -13,6 +13,9 @@ namespace {
 constexpr int parts_a_substep = 3;
 // Bodies are moved in groups of at most so many.
 constexpr std::size_t widest = 16;
+// Bodies are shared out in blocks of so many, about a microsecond's work.
+constexpr int bodies_a_block = 64;
+constexpr int moved_a_block = 16 * int(widest);
 // Radians that a body may turn before its contacts are anchored anew: their arms then point that
 // much aside, and what they do to its spin is off by as much.
 constexpr float farthest_turn = 0.1f;
@@ -27,29 +30,51 @@ void SoftStep::advance(const StepProblem& problem) {
     anchor(problem, h);
     choose_bouncing(problem);
     take_warm_start(problem, kernels);
+    const auto each = [&](int begin, int end, auto&& visit) {
+        for (const std::uint32_t i :
+             problem.moving.subspan(std::size_t(begin), std::size_t(end - begin)))
+            visit(i);
+    };
+    auto begin_bodies = [&](int begin, int end, int) {
+        each(begin, end, [&](std::uint32_t i) { begin_substep(problem, i, h); });
+    };
+    auto move_bodies = [&](int begin, int end, int) {
+        kernels.move_bodies(bodies_.data(), touched_.data() + begin, std::size_t(end - begin),
+                            part);
+    };
+    auto end_bodies = [&](int begin, int end, int) {
+        each(begin, end, [&](std::uint32_t i) { end_substep(problem, i, h); });
+    };
     for (int substep = 0; substep < problem.substeps; ++substep) {
         if (has_turned_far()) anchor_anew(problem, h);
         resolve_impacts(problem, h);
-        integrate_velocities(problem, h);
+        add_loop(problem.moving.size(), bodies_a_block, begin_bodies);
         for (int k = 0; k < parts_a_substep; ++k) {
-            exact_.solve(part, true, responses_, bodies_, rows_);
-            for (int i = 0; i < problem.iterations; ++i) run(kernels.solve, {1.0f / part, false});
-            kernels.move_bodies(bodies_.data(), touched_.data(), touched_.size(), part);
+            solve_exactly(problem, part, true);
+            for (int i = 0; i < problem.iterations; ++i)
+                add_pass(kernels.solve, {1.0f / part, false});
+            add_loop(touched_.size(), moved_a_block, move_bodies);
             if (!exact_.empty()) {
-                run(kernels.measure, {});
-                exact_.solve(part, false, responses_, bodies_, rows_);
+                add_pass(kernels.measure, {});
+                solve_exactly(problem, part, false);
             }
             for (int i = 0; i < problem.iterations; ++i) {
                 const bool last = k + 1 == parts_a_substep && i + 1 == problem.iterations;
-                run(kernels.relax, {1.0f / part, last});
+                add_pass(kernels.relax, {1.0f / part, last});
             }
         }
-        move_untouched(problem, h);
-        hold_impulses(problem);
+        add_loop(problem.moving.size(), bodies_a_block, end_bodies);
+        run(problem);
     }
     store_poses(problem);
     rows_.store(problem, h, true);
     store_bodies(problem);
+}
+
+void SoftStep::solve_exactly(const StepProblem& problem, float part, bool pushes) {
+    if (exact_.empty()) return;
+    run(problem);
+    exact_.solve(part, pushes, responses_, bodies_, rows_);
 }
 
 // Contacts as they are at the bodies' present poses, in rows.
@@ -63,6 +88,7 @@ void SoftStep::anchor(const StepProblem& problem, float h) {
     }
     const int width = find_soft_kernels(problem.lanes).width;
     rows_.build(problem, responses_, h, h / float(parts_a_substep), width);
+    bodies_.resize(problem.motions.size() + rows_.spare_bodies());
     exact_.prepare(problem, responses_, rows_);
 }
 
@@ -82,10 +108,11 @@ bool SoftStep::has_turned_far() const {
 }
 
 void SoftStep::take_warm_start(const StepProblem& problem, const SoftKernels& kernels) {
-    run(kernels.warm_start, {});
-    hold_impulses(problem);
-    // The first substep adds them with its forces.
+    add_pass(kernels.warm_start, {});
+    run(problem);
     for (const std::uint32_t i : problem.moving) {
+        hold_impulses(i);
+        // The first substep adds them with its forces.
         bodies_[i].v = courses_[i].free_v;
         bodies_[i].w = courses_[i].free_w;
     }
@@ -109,9 +136,8 @@ void SoftStep::load_bodies(const StepProblem& problem) {
         if (rows_.links()[k].turns_with_b) b.has_arms = true;
     }
     touched_.clear();
-    untouched_.clear();
     for (const std::uint32_t i : problem.moving) {
-        (courses_[i].touched ? touched_ : untouched_).push_back(i);
+        if (courses_[i].touched) touched_.push_back(i);
         courses_[i].tumbles =
             courses_[i].touched && tumbles(problem.inertias[i], problem.drives[i]);
     }
@@ -142,21 +168,19 @@ void SoftStep::resolve_impacts(const StepProblem& problem, float h) {
     }
 }
 
-void SoftStep::integrate_velocities(const StepProblem& problem, float h) {
-    for (const std::uint32_t i : problem.moving) {
-        SoftBody& body = bodies_[i];
-        Course& course = courses_[i];
-        BodyMotion motion = {.linear_velocity = body.v, .angular_velocity = body.w};
-        integrate_velocity(motion, problem.inertias[i], problem.drives[i], responses_[i],
-                           problem.gravity, h);
-        Vec3 w = motion.angular_velocity;
-        if (course.tumbles) w = find_tumble(problem, i, motion.angular_velocity, h);
-        course.tumble_rest = motion.angular_velocity - w;
-        course.free_v = motion.linear_velocity;
-        course.free_w = motion.angular_velocity;
-        body.v = course.free_v + course.held_v;
-        body.w = w + course.held_w;
-    }
+void SoftStep::begin_substep(const StepProblem& problem, std::uint32_t i, float h) {
+    SoftBody& body = bodies_[i];
+    Course& course = courses_[i];
+    BodyMotion motion = {.linear_velocity = body.v, .angular_velocity = body.w};
+    integrate_velocity(motion, problem.inertias[i], problem.drives[i], responses_[i],
+                       problem.gravity, h);
+    Vec3 w = motion.angular_velocity;
+    if (course.tumbles) w = find_tumble(problem, i, motion.angular_velocity, h);
+    course.tumble_rest = motion.angular_velocity - w;
+    course.free_v = motion.linear_velocity;
+    course.free_w = motion.angular_velocity;
+    body.v = course.free_v + course.held_v;
+    body.w = w + course.held_w;
 }
 
 // What free rotation over h makes of w; returns the steady angular velocity that turns the body as
@@ -170,14 +194,15 @@ Vec3 SoftStep::find_tumble(const StepProblem& problem, std::uint32_t body, Vec3&
     return (1.0f / h) * logarithm(after * conjugate(before));
 }
 
-void SoftStep::move_untouched(const StepProblem& problem, float h) {
-    for (const std::uint32_t i : untouched_) {
+void SoftStep::end_substep(const StepProblem& problem, std::uint32_t i, float h) {
+    if (!courses_[i].touched) {
         BodyMotion& motion = problem.motions[i];
         motion.linear_velocity = bodies_[i].v;
         motion.angular_velocity = bodies_[i].w;
         integrate_pose(motion, problem.inertias[i], problem.drives[i], h);
         bodies_[i].w = courses_[i].free_w = motion.angular_velocity;
     }
+    hold_impulses(i);
 }
 
 void SoftStep::store_poses(const StepProblem& problem) {
@@ -190,19 +215,46 @@ void SoftStep::store_poses(const StepProblem& problem) {
     }
 }
 
-void SoftStep::run(const SoftKernels::Kernel (&kernels)[row_kind_count], const SoftPass& pass) {
+void SoftStep::RowJob::operator()(int begin, int end, int) const {
+    const auto first = std::size_t(begin) * width;
+    kernel({range.rows + first * numbers, range.read_a + first, range.read_b + first,
+            range.write_a + first, range.write_b + first, std::size_t(end - begin)},
+           bodies, pass);
+}
+
+void SoftStep::add_pass(const SoftKernels::Kernel (&kernels)[row_kind_count],
+                        const SoftPass& pass) {
     for (const SoftRows::Batch& batch : rows_.batches()) {
-        kernels[std::size_t(batch.kind)](rows_.range(batch), bodies_.data(), pass);
+        const RowArray& rows = rows_.array(batch.kind);
+        jobs_.push_back({kernels[std::size_t(batch.kind)], rows_.range(batch), rows.width(),
+                         rows.numbers(), bodies_.data(), pass});
+        add_loop(batch.end - batch.begin, SoftRows::rows_a_block(int(rows.width())), jobs_.back());
     }
 }
 
-void SoftStep::hold_impulses(const StepProblem& problem) {
-    for (const std::uint32_t i : problem.moving) {
-        bodies_[i].w += courses_[i].tumble_rest;
-        courses_[i].tumble_rest = {};
-        courses_[i].held_v = bodies_[i].v - courses_[i].free_v;
-        courses_[i].held_w = bodies_[i].w - courses_[i].free_w;
+template <class Loop>
+void SoftStep::add_loop(std::size_t count, int block_size, Loop& loop) {
+    stages_.push_back(TeamStage(int(count), block_size, loop));
+}
+
+// Does what was added, in order.
+void SoftStep::run(const StepProblem& problem) {
+    if (problem.team) {
+        problem.team->run_stages(stages_);
+    } else {
+        for (const TeamStage& stage : stages_) {
+            if (stage.count > 0) stage.kernel(0, stage.count, 0);
+        }
     }
+    stages_.clear();
+    jobs_.clear();
+}
+
+void SoftStep::hold_impulses(std::uint32_t i) {
+    bodies_[i].w += courses_[i].tumble_rest;
+    courses_[i].tumble_rest = {};
+    courses_[i].held_v = bodies_[i].v - courses_[i].free_v;
+    courses_[i].held_w = bodies_[i].w - courses_[i].free_w;
 }
 
 void SoftStep::store_bodies(const StepProblem& problem) {

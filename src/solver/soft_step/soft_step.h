@@ -26,6 +26,7 @@
 // multiplier beside the penalty), exact loads, manifolds as rigid frames (soft_row.h), friction
 // on a sphere with the twist, restitution apart and first.
 
+#include <deque>
 #include <vector>
 
 #include "solver/contact_rows.h"
@@ -50,12 +51,16 @@ private:
     void anchor(const StepProblem& problem, float h);
     void anchor_anew(const StepProblem& problem, float h);
     void resolve_impacts(const StepProblem& problem, float h);
-    void integrate_velocities(const StepProblem& problem, float h);
+    void begin_substep(const StepProblem& problem, std::uint32_t body, float h);
+    void end_substep(const StepProblem& problem, std::uint32_t body, float h);
+    void solve_exactly(const StepProblem& problem, float part, bool pushes);
     Vec3 find_tumble(const StepProblem& problem, std::uint32_t body, Vec3& w, float h) const;
-    void move_untouched(const StepProblem& problem, float h);
     void store_poses(const StepProblem& problem);
-    void run(const SoftKernels::Kernel (&kernels)[row_kind_count], const SoftPass& pass);
-    void hold_impulses(const StepProblem& problem);
+    void add_pass(const SoftKernels::Kernel (&kernels)[row_kind_count], const SoftPass& pass);
+    template <class Loop>
+    void add_loop(std::size_t count, int block_size, Loop& loop);
+    void run(const StepProblem& problem);
+    void hold_impulses(std::uint32_t body);
     void store_bodies(const StepProblem& problem);
 
     // What a body is beside its SoftBody.
@@ -71,13 +76,24 @@ private:
         bool has_arms = false;  // in a contact that turns with it
     };
 
-    std::vector<SoftBody> bodies_;  // and two more: see SoftRows::build
+    // A pass over a batch of rows.
+    struct RowJob {
+        SoftKernels::Kernel kernel;
+        RowRange range;
+        std::size_t width, numbers;  // lanes of a row, numbers of a lane
+        SoftBody* bodies;
+        SoftPass pass;
+        void operator()(int begin, int end, int worker) const;
+    };
+
+    std::vector<SoftBody> bodies_;  // and some more: see SoftRows::spare_bodies
     std::vector<Course> courses_;
-    std::vector<std::uint32_t> touched_;    // padded to a multiple of every width
-    std::vector<std::uint32_t> untouched_;  // in no contact
+    std::vector<std::uint32_t> touched_;  // padded to a multiple of every width
     std::vector<Response> responses_;
     SoftRows rows_;
     ExactLoads exact_;
+    std::deque<RowJob> jobs_;                // what is to be done next, in order:
+    std::vector<TeamStage> stages_;          // passes over rows and loops over bodies
     std::vector<std::uint32_t> may_bounce_;  // as StepProblem::active
     std::vector<ContactRows> bouncing_;
     std::vector<Response> impact_responses_;
