@@ -39,7 +39,9 @@ std::string say_count(int n, const char* what) {
 
 class CairnEngine final : public Engine {
 public:
-    explicit CairnEngine(const WorldSettings& settings) : world_(*World::create(settings)) {}
+    CairnEngine(const WorldSettings& settings, int threads) : world_(*World::create(settings)) {
+        (void)world_.set_threads({.count = threads});
+    }
 
     void add(const BenchScene& scene, const SceneBody& body) override {
         BodyDef def{.kind = body.mobility == Mobility::Dynamic     ? BodyKind::Dynamic
@@ -115,13 +117,12 @@ EngineDescription describe_engine() {
 }
 
 MadeEngine make_engine(const BenchScene& scene, const EngineRequest& request) {
-    if (request.threads > 1) return {.engine = {}, .problem = "this version steps on one thread"};
     WorldSettings settings;
     settings.gravity = {0, static_cast<float>(-scene.gravity), 0};
     for (const Variant& variant : variants) {
         if (variant.name == request.variant) settings.step.solver = variant.solver;
     }
-    return {.engine = std::make_unique<CairnEngine>(settings), .problem = {}};
+    return {.engine = std::make_unique<CairnEngine>(settings, request.threads), .problem = {}};
 }
 
 }  // namespace cairn::bench

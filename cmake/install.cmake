@@ -10,9 +10,12 @@ install(TARGETS cairn EXPORT cairn_targets
 install(DIRECTORY include/cairn DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
 
 install(EXPORT cairn_targets NAMESPACE cairn:: DESTINATION ${cairn_package_dir})
-# The core needs no package, so the list of targets is all that a configuration has to read.
-file(WRITE ${PROJECT_BINARY_DIR}/cairn-config.cmake
-  "include(\${CMAKE_CURRENT_LIST_DIR}/cairn_targets.cmake)\n")
+# The core needs no package but the system's threads.
+set(cairn_config "include(\${CMAKE_CURRENT_LIST_DIR}/cairn_targets.cmake)\n")
+if(Threads_FOUND)
+  string(PREPEND cairn_config "include(CMakeFindDependencyMacro)\nfind_dependency(Threads)\n")
+endif()
+file(WRITE ${PROJECT_BINARY_DIR}/cairn-config.cmake "${cairn_config}")
 # Until 1.0 a minor version may change the interface.
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/cairn-config-version.cmake
   COMPATIBILITY SameMinorVersion)

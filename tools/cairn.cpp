@@ -80,7 +80,8 @@ void add_run_options(CLI::App& app, tool::RunCommand& run) {
     app.add_option("--iterations", options.iterations, "iterations a substep, 1 to 1000");
     app.add_option("--narrow-phase", options.narrow_phase, "sat or gjk-epa");
     app.add_option("--broad-phase", options.broad_phase, "brute-force");
-    app.add_option("--threads", run.threads, "accepted; this version runs on one thread");
+    app.add_option("--threads", run.threads,
+                   "how many threads may share a step's work; never changes a result");
     app.add_option("--lanes", run.lanes,
                    "at most N contacts side by side; default: as many as the processor can");
     app.add_option("--json", run.json, "write the result to this file, - for standard output");

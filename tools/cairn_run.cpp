@@ -74,14 +74,15 @@ Result<Scene> load_scene(const std::string& source, const std::vector<std::strin
 namespace {
 
 Status check_usage(const RunCommand& command) {
-    const auto check_count = [](std::int64_t count, const char* flag) -> Status {
-        if (count >= 1 && count <= 1024) return Done{};
+    const auto check_count = [](std::int64_t count, int most, const char* flag) -> Status {
+        if (count >= 1 && count <= most) return Done{};
         return Error{
             ErrorCode::OutOfRange,
-            fmt::format("{}: found {}; allowed: a whole number from 1 to 1024", flag, count)};
+            fmt::format("{}: found {}; allowed: a whole number from 1 to {}", flag, count, most)};
     };
-    if (Status status = check_count(command.threads, "--threads"); !status) return status;
-    return command.lanes == 0 ? Status(Done{}) : check_count(command.lanes, "--lanes");
+    Status threads = check_count(command.threads, max_thread_count, "--threads");
+    if (!threads) return threads;
+    return command.lanes == 0 ? Status(Done{}) : check_count(command.lanes, 1024, "--lanes");
 }
 
 // Finds out before a long run whether its result can be kept.
@@ -205,11 +206,11 @@ int run(const RunCommand& command) {
     }
     Result<BuiltWorld> built = scene::build_world(plan->scene);
     if (!built) return fail(bad_usage, fmt::format("{}: {}", command.scene, built.error().message));
-    if (command.threads > 1 && !command.quiet) {
-        fmt::print(stderr, "cairn: this version runs on one thread, whatever is asked for\n");
-    }
 
     Attempt attempt{std::move(built).value(), std::move(plan).value(), {}, {}};
+    attempt.plan.threads = static_cast<int>(command.threads);
+    const Status threads = attempt.built.world.set_threads({.count = attempt.plan.threads});
+    if (!threads) return fail(went_wrong, threads.error().message);
     if (!command.replay.empty())
         attempt.recorder.emplace(attempt.built.world, make_replay_info(attempt));
     ProgressBar bar(attempt.plan.steps, !command.quiet);

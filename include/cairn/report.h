@@ -79,6 +79,8 @@ struct StepReport {
     double time = 0;                ///< s since the world began
     std::size_t pair_count = 0;     ///< pairs whose boxes overlap
     std::size_t contact_count = 0;  ///< contact points of the step
+    /// Pairs whose points were carried along from an earlier step, StepSettings::reuse_contacts.
+    std::size_t reused_count = 0;
     /// Wall time; no part of the world's state.
     std::array<double, stage_count> stage_seconds = {};
 };

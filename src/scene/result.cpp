@@ -161,7 +161,7 @@ std::string write_result(const BuiltWorld& built, const RunPlan& plan, const Run
     json.begin_object().member("cairn", version()).member("scene", plan.scene.name);
     write_step(json, plan.scene);
     const auto steps = static_cast<std::uint64_t>(record.step_ms.size());
-    json.member("threads", 1).member("steps", steps);
+    json.member("threads", static_cast<std::uint64_t>(plan.threads)).member("steps", steps);
     json.member("time", static_cast<double>(steps) * plan.scene.dt);
     write_bodies(json, built, ids);
     json.key("joints").begin_array().end();

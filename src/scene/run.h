@@ -31,6 +31,7 @@ struct RunPlan {
     Scene scene = {};
     std::uint64_t steps = 0;
     std::uint64_t sample_every = 0;
+    int threads = 1;  ///< of the built world: whoever runs the plan sets them
 };
 
 /// Naming another solver than the scene's takes that solver's own substeps and iterations, unless

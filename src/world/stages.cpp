@@ -216,7 +216,10 @@ void build_manifolds(WorldState& world, Team& team) {
     });
     auto& active = world.scratch.active;
     active.clear();
-    std::size_t point_count = 0;
+    std::size_t point_count = 0, found_count = 0;
+    for (const Meeting* meeting : meetings) {
+        found_count += world.contacts.pairs()[meeting->pair].meets ? 1 : 0;
+    }
     for (const PairRecord& pair : world.contacts.pairs()) {
         if (!pair.meets) continue;
         Contact& contact = world.contacts[pair.contact];
@@ -225,6 +228,7 @@ void build_manifolds(WorldState& world, Team& team) {
         point_count += std::size_t(contact.point_count);
     }
     world.report.contact_count = point_count;
+    world.report.reused_count = active.size() - found_count;
 }
 
 // Reads everything above; writes velocities, rotations, displacements and impulses.

@@ -28,8 +28,8 @@
 using cairn::Job;
 using cairn::make_scheduler;
 using cairn::SharedScheduler;
-using cairn::Stage;
 using cairn::Team;
+using cairn::TeamStage;
 using cairn::Threads;
 
 namespace {
@@ -354,9 +354,9 @@ TEST_CASE("a count of threads out of range is an error that says the range") {
 
 // What would dangle does not compile.
 using Temporary = decltype([](int, int, int) {});
-static_assert(!std::is_constructible_v<Stage, int, int, Temporary>);
-static_assert(!std::is_constructible_v<Stage, int, int, const Temporary>);
-static_assert(std::is_constructible_v<Stage, int, int, Temporary&>);
+static_assert(!std::is_constructible_v<TeamStage, int, int, Temporary>);
+static_assert(!std::is_constructible_v<TeamStage, int, int, const Temporary>);
+static_assert(std::is_constructible_v<TeamStage, int, int, Temporary&>);
 
 namespace {
 

@@ -7,8 +7,8 @@
 
 #include <vector>
 
-using cairn::Stage;
 using cairn::StageBoard;
+using cairn::TeamStage;
 
 namespace {
 
