@@ -46,9 +46,9 @@ SeparatingAxis edge_pair_along(const BoxPair& pair, Vec3 normal) {
 // The axis that GJK or EPA found, put on the one of the 15 that it stands for: the last step's
 // while it is nearly as good, the best face if that is, the edge pair that lies along it. `hint`
 // says which it was.
-Axis on_nearest_feature(const BoxPair& pair, const Axis& found, AxisHint& hint) {
+Axis on_nearest_feature(const BoxPair& pair, const Axis& found, const SeparatingAxis& last,
+                        AxisHint& hint) {
     const AxisPreference preference = axis_preference(pair);
-    const SeparatingAxis last = hint.kind != 0 ? measure_axis(pair, hint) : SeparatingAxis{};
     struct Candidate {
         SeparatingAxis axis;
         float yielding;  // how much worse than what was found it may be
@@ -75,23 +75,38 @@ Axis on_nearest_feature(const BoxPair& pair, const Axis& found, AxisHint& hint) 
 
 }  // namespace
 
-Axis find_axis_box_box(const Box& a, const Box& b, const Pose& b_in_a, NarrowPhase method,
-                       AxisHint& hint) {
-    const BoxPair pair = make_box_pair(a, b, b_in_a);
+bool find_axis_box_box(const BoxPair& pair, NarrowPhase method, const Reach& reach, AxisHint& hint,
+                       Axis& axis) {
+    const auto is_beyond = [&](const SeparatingAxis& along) {
+        if (!(along.separation > reach.along(along.normal))) return false;
+        axis.normal = along.normal, axis.separation = along.separation;
+        hint = along.feature;
+        return true;
+    };
+    SeparatingAxis last;
+    if (hint.kind != 0) {
+        last = measure_axis(pair, hint);
+        if (is_beyond(last)) return false;
+    }
     Vec3 toward_b = pair.t == Vec3{} ? Vec3{0, 1, 0} : pair.t;
     if (method == NarrowPhase::Sat) {
-        const SeparatingAxis best = find_separating_axis(pair, hint);
+        const SeparatingAxis best = find_separating_axis(pair, last, reach);
+        if (is_beyond(best)) return false;
         const AxisPreference preference = axis_preference(pair);
         const float yielding =
             is_same(best.feature, hint) ? preference.new_over_last : preference.edge_over_face;
-        if (const std::optional<Axis> axis = axis_along(pair, best, yielding)) {
+        if (const std::optional<Axis> found = axis_along(pair, best, yielding)) {
             hint = best.feature;
-            return *axis;
+            axis = *found;
+            return true;
         }
         toward_b = best.normal;
     }
-    const Axis found = find_axis_convex(convex_shape(a), convex_shape(b), b_in_a, toward_b);
-    return on_nearest_feature(pair, found, hint);
+    const Box a = {pair.h_a}, b = {pair.h_b};
+    const Axis found =
+        find_axis_convex({convex_shape(a), convex_shape(b), pair.t, pair.axes_b}, toward_b);
+    axis = on_nearest_feature(pair, found, last, hint);
+    return axis.separation <= reach.along(axis.normal);
 }
 
 }  // namespace cairn

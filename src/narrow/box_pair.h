@@ -21,6 +21,29 @@ inline BoxPair make_box_pair(const Box& a, const Box& b, const Pose& b_in_a) {
     return {a.half_extents, b.half_extents, b_in_a.position, to_matrix(b_in_a.rotation)};
 }
 
+// The same pair as B sees it: B's axes are the common ones, and A comes second.
+constexpr BoxPair seen_from_b(const BoxPair& pair) {
+    const auto& [x, y, z] = pair.axes_b;
+    return {pair.h_b,
+            pair.h_a,
+            -multiply_transposed(pair.axes_b, pair.t),
+            {{x.x, y.x, z.x}, {x.y, y.y, z.y}, {x.z, y.z, z.z}}};
+}
+
+// The box's axis k.
+constexpr Vec3 column(const Mat3& axes, int k) {
+    return k == 0 ? axes.x : k == 1 ? axes.y : axes.z;
+}
+
+// The axis whose faces look most along a direction, given along the box's axes. A trifle of favour
+// for the first axes, so that ties do not hang on rounding.
+constexpr int steepest_axis(Vec3 slope) {
+    constexpr float clearly = 1.0f + 1e-3f;
+    const Vec3 s = absolute(slope);
+    const int axis = s.y > clearly * s.x ? 1 : 0;
+    return s.z > clearly * (axis == 0 ? s.x : s.y) ? 2 : axis;
+}
+
 // What AxisHint::kind says for two boxes; index_a and index_b number the axes, 0 to 2.
 enum class BoxAxisKind : std::uint8_t {
     Unknown,

@@ -1,15 +1,17 @@
 // The separating axis test for two boxes; see sat.h.
 //
-// Symbols: c_ij = component i of B's axis j, seen along A's axes. For A's face i the boxes reach
-// h_a[i] and sum_j |c_ij| h_b[j]; for B's face j the other way round. The edge axis n = e_i x u_j
-// has no component i, and its square is 1 - c_ij^2, taken as the sum of the two other squares: no
-// cancellation.
+// Symbols: c_ij = component i of B's axis j, seen along A's axes; row i holds c_i0, c_i1, c_i2,
+// column j B's axis j. For A's face i the boxes reach h_a[i] and sum_j |c_ij| h_b[j]; for B's face
+// j the other way round. The edge axis n = e_i x u_j has the components -c_2j along i1 and c_1j
+// along i2, where i, i1, i2 are in turn; it sees of B's axis u_k the cofactor
+// n . u_k = c_1j c_2k - c_2j c_1k.
+//
+// Three axes are measured at once, one a lane; the fourth lane is 0. Each lane does what a single
+// float would.
 
 #include "narrow/sat.h"
 
 #include <limits>
-
-#include "shape/placed_box.h"
 
 namespace cairn {
 namespace {
@@ -19,8 +21,25 @@ constexpr float lowest = std::numeric_limits<float>::lowest();
 // Edges closer to parallel than this, in radians, span no axis of their own: their faces stand for
 // it.
 constexpr float parallel_edges = 1e-4f;
-// Below this angle the scaled form of an edge axis would lose digits: it is normalised first.
-constexpr float nearly_parallel_edges = 0.1f;
+
+typedef float Three __attribute__((vector_size(16)));
+typedef std::int32_t Choice __attribute__((vector_size(16)));
+
+Three in_lanes(Vec3 v) { return Three{v.x, v.y, v.z, 0}; }
+using kernel::absolute;
+Three absolute(Three v) { return Three(Choice(v) & 0x7fffffff); }
+// The lanes of the next axis, and of the one after.
+Three next(Three v) { return __builtin_shufflevector(v, v, 1, 2, 0, 3); }
+Three last(Three v) { return __builtin_shufflevector(v, v, 2, 0, 1, 3); }
+
+struct Rows {
+    Three at[3];
+};
+
+Rows rows_of(const Mat3& axes) {
+    return {{Three{axes.x.x, axes.y.x, axes.z.x, 0}, Three{axes.x.y, axes.y.y, axes.z.y, 0},
+             Three{axes.x.z, axes.y.z, axes.z.z, 0}}};
+}
 
 AxisHint feature(BoxAxisKind kind, int index_a, int index_b) {
     return {std::uint8_t(kind), std::uint8_t(index_a), std::uint8_t(index_b)};
@@ -28,72 +47,76 @@ AxisHint feature(BoxAxisKind kind, int index_a, int index_b) {
 
 Vec3 toward_b(Vec3 axis, float t_along) { return t_along < 0 ? -axis : axis; }
 
-// Keeps the best of what it is shown; of equals, the first.
 struct Best {
     float separation = lowest;
     AxisHint feature = {};
-    void offer(float candidate, AxisHint candidate_feature) {
-        if (candidate > separation) separation = candidate, feature = candidate_feature;
-    }
 };
 
-Best best_face(const BoxPair& pair) {
-    const Mat3 reach = absolute(pair.axes_b);
-    const Vec3 a = absolute(pair.t) - (pair.h_a + reach * pair.h_b);
-    const Vec3 t_in_b = absolute(multiply_transposed(pair.axes_b, pair.t));
-    const Vec3 b = t_in_b - (pair.h_b + multiply_transposed(reach, pair.h_a));
-    Best best;
-    best.offer(a.x, feature(BoxAxisKind::FaceA, 0, 0));
-    best.offer(a.y, feature(BoxAxisKind::FaceA, 1, 0));
-    best.offer(a.z, feature(BoxAxisKind::FaceA, 2, 0));
-    best.offer(b.x, feature(BoxAxisKind::FaceB, 0, 0));
-    best.offer(b.y, feature(BoxAxisKind::FaceB, 0, 1));
-    best.offer(b.z, feature(BoxAxisKind::FaceB, 0, 2));
+// Of equals, the first.
+Best best_face(const BoxPair& pair, const Rows& c) {
+    const Vec3 t = pair.t, h_a = pair.h_a, h_b = pair.h_b;
+    const Three reach_b = absolute(in_lanes(pair.axes_b.x)) * h_b.x +
+                          absolute(in_lanes(pair.axes_b.y)) * h_b.y +
+                          absolute(in_lanes(pair.axes_b.z)) * h_b.z;
+    const Three reach_a =
+        absolute(c.at[0]) * h_a.x + absolute(c.at[1]) * h_a.y + absolute(c.at[2]) * h_a.z;
+    const Three t_in_b = absolute(c.at[0] * t.x + c.at[1] * t.y + c.at[2] * t.z);
+    const Three a = absolute(in_lanes(t)) - in_lanes(h_a) - reach_b;
+    const Three b = t_in_b - in_lanes(h_b) - reach_a;
+    Best best = {a[0], feature(BoxAxisKind::FaceA, 0, 0)};
+    for (int i = 1; i < 3; ++i) {
+        if (a[i] > best.separation) best = {a[i], feature(BoxAxisKind::FaceA, i, 0)};
+    }
+    for (int j = 0; j < 3; ++j) {
+        if (b[j] > best.separation) best = {b[j], feature(BoxAxisKind::FaceB, 0, j)};
+    }
     return best;
+}
+
+// The three axes across A's edges along i, before they are normalised.
+struct EdgeAxes {
+    Three separation;
+    Three squared_length;
+};
+
+EdgeAxes measure_edges(const Rows& c, int i, const float (&t)[3], const float (&h_a)[3],
+                       Three h_b) {
+    const int i1 = (i + 1) % 3, i2 = (i + 2) % 3;
+    const Three c1 = c.at[i1], c2 = c.at[i2];
+    // Lane k: the cofactor that the axes of u_k's two neighbours see of each other.
+    const Three cofactor = absolute(next(c1) * last(c2) - last(c1) * next(c2));
+    const Three reach_a = absolute(c2) * h_a[i1] + absolute(c1) * h_a[i2];
+    const Three reach_b = last(cofactor) * next(h_b) + next(cofactor) * last(h_b);
+    return {absolute(c1 * t[i2] - c2 * t[i1]) - (reach_a + reach_b), c1 * c1 + c2 * c2};
+}
+
+bool any(Choice choice) {
+    const Choice half = choice | __builtin_shufflevector(choice, choice, 2, 3, 0, 1);
+    return (half[0] | half[1]) != 0;
 }
 
 // The best of the nine edge pairs that are better than `threshold`, if any.
-Best best_edge_pair(const BoxPair& pair, float threshold) {
-    const Vec3 u[3] = {pair.axes_b.x, pair.axes_b.y, pair.axes_b.z};
-    const float c[3][3] = {
-        {u[0].x, u[1].x, u[2].x}, {u[0].y, u[1].y, u[2].y}, {u[0].z, u[1].z, u[2].z}};
+Best best_edge_pair(const BoxPair& pair, const Rows& c, float threshold) {
     const float t[3] = {pair.t.x, pair.t.y, pair.t.z};
     const float h_a[3] = {pair.h_a.x, pair.h_a.y, pair.h_a.z};
-    const float h_b[3] = {pair.h_b.x, pair.h_b.y, pair.h_b.z};
-    constexpr int next[3] = {1, 2, 0}, last[3] = {2, 0, 1};
+    const Three h_b = in_lanes(pair.h_b);
     Best best = {threshold, {}};
     for (int i = 0; i < 3; ++i) {
+        const EdgeAxes edges = measure_edges(c, i, t, h_a, h_b);
+        // s / length > bar, squared with its sign: most need no square root.
+        const Three s = edges.separation;
+        const float bar = best.separation * absolute(best.separation);
+        const Choice is_better = (s * absolute(s) > bar * edges.squared_length) &
+                                 (edges.squared_length > parallel_edges * parallel_edges);
+        if (!any(is_better)) continue;
         for (int j = 0; j < 3; ++j) {
-            // n = e_i x u_j before it is normalised: -c_2j along i1, c_1j along i2, nothing along
-            // i. What it sees of B's axis u_k is |e_i . (u_j x u_k)|, the component i of the third.
-            const int i1 = next[i], i2 = last[i], j1 = next[j], j2 = last[j];
-            const float c1 = c[i1][j], c2 = c[i2][j];
-            const float t_along = absolute(c1 * t[i2] - c2 * t[i1]);
-            const float reach_a = absolute(c2) * h_a[i1] + absolute(c1) * h_a[i2];
-            const float reach_b = absolute(c[i][j2]) * h_b[j1] + absolute(c[i][j1]) * h_b[j2];
-            const float scaled = t_along - (reach_a + reach_b);
-            const float squared = c1 * c1 + c2 * c2;
-            const AxisHint edges = feature(BoxAxisKind::EdgePair, i, j);
-            if (squared < nearly_parallel_edges * nearly_parallel_edges) {
-                if (squared < parallel_edges * parallel_edges) continue;
-                best.offer(measure_axis(pair, edges).separation, edges);
-                continue;
-            }
-            // Normalised, a negative separation only falls: most need no square root.
-            if (scaled <= min(best.separation, 0)) continue;
-            best.offer(scaled / square_root(squared), edges);
+            if (!is_better[j]) continue;
+            const float separation = s[j] / square_root(edges.squared_length[j]);
+            if (separation <= best.separation) continue;
+            best = {separation, feature(BoxAxisKind::EdgePair, i, j)};
         }
     }
     return best;
-}
-
-// The last step's axis if it is nearly as good as the best; else the best.
-SeparatingAxis keep_last(const BoxPair& pair, const Best& best, AxisHint last, float yielding) {
-    if (last.kind != 0 && !is_same(last, best.feature)) {
-        const SeparatingAxis kept = measure_axis(pair, last);
-        if (kept.separation >= best.separation - yielding) return kept;
-    }
-    return measure_axis(pair, best.feature);
 }
 
 }  // namespace
@@ -124,15 +147,24 @@ SeparatingAxis measure_axis(const BoxPair& pair, AxisHint f) {
 }
 
 SeparatingAxis find_separating_face(const BoxPair& pair) {
-    return measure_axis(pair, best_face(pair).feature);
+    return measure_axis(pair, best_face(pair, rows_of(pair.axes_b)).feature);
 }
 
-SeparatingAxis find_separating_axis(const BoxPair& pair, AxisHint last) {
+SeparatingAxis find_separating_axis(const BoxPair& pair, const SeparatingAxis& last,
+                                    const Reach& reach) {
+    const Rows c = rows_of(pair.axes_b);
+    Best best = best_face(pair, c);
+    if (best.separation > reach.distance) {
+        const SeparatingAxis face = measure_axis(pair, best.feature);
+        if (face.separation > reach.along(face.normal)) return face;
+    }
     const AxisPreference preference = axis_preference(pair);
-    Best best = best_face(pair);
-    const Best edges = best_edge_pair(pair, best.separation + preference.edge_over_face);
+    const Best edges = best_edge_pair(pair, c, best.separation + preference.edge_over_face);
     if (edges.feature.kind != 0) best = edges;
-    return keep_last(pair, best, last, preference.new_over_last);
+    // The last step's axis if it is nearly as good as the best.
+    const bool is_kept =
+        last.feature.kind != 0 && last.separation >= best.separation - preference.new_over_last;
+    return is_kept ? last : measure_axis(pair, best.feature);
 }
 
 }  // namespace cairn
