@@ -12,31 +12,31 @@
 namespace cairn {
 namespace {
 
-// The vertices of the box's lowest face against a plane. The box's axes and centre are given in the
-// plane's frame or in the box's own, n points out of the plane, and `lowest` is the separation of
-// the lowest vertex.
-void push_plane_box(Manifold& manifold, Vec3 half_extents, const Mat3& axes, Vec3 center, Vec3 n,
-                    bool plane_is_a, float lowest, float max_separation) {
-    const Vec3 slope = multiply_transposed(axes, n);
+// The vertices of the box's lowest face against a plane. `box_axes` and `center`, the box's, are
+// along whichever axes the manifold is; n points out of the plane, and `lowest` is the separation
+// of the lowest vertex.
+void push_plane_box(Manifold& manifold, Three half_extents, const Mat3& box_axes, Three center,
+                    Three n, bool plane_is_a, float lowest, float max_separation) {
+    const Three axes[3] = {three(box_axes.x), three(box_axes.y), three(box_axes.z)};
+    const Three slope = {dot(axes[0], n), dot(axes[1], n), dot(axes[2], n), 0};
     const FaceOwner owner = plane_is_a ? FaceOwner::B : FaceOwner::A;
     const int k = steepest_axis(slope), k1 = (k + 1) % 3, k2 = (k + 2) % 3;
-    const float sign = component(slope, k) < 0 ? 1.0f : -1.0f;
-    const Vec3 middle = sign * component(half_extents, k) * column(axes, k);
-    const Vec3 edge_1 = component(half_extents, k1) * column(axes, k1);
-    const Vec3 edge_2 = component(half_extents, k2) * column(axes, k2);
+    const float sign = slope[k] < 0 ? 1.0f : -1.0f;
+    const Three middle = sign * half_extents[k] * axes[k];
+    const Three edge_1 = half_extents[k1] * axes[k1], edge_2 = half_extents[k2] * axes[k2];
     // From the lowest vertex, each edge climbed adds its own rise.
-    const float rise_1 = 2 * component(half_extents, k1) * component(slope, k1);
-    const float rise_2 = 2 * component(half_extents, k2) * component(slope, k2);
+    const float rise_1 = 2 * half_extents[k1] * slope[k1];
+    const float rise_2 = 2 * half_extents[k2] * slope[k2];
     constexpr float turn[4][2] = {{1, 1}, {-1, 1}, {-1, -1}, {1, -1}};
     for (const auto& [sign_1, sign_2] : turn) {
         const float separation = lowest + max(0, sign_1 * rise_1) + max(0, sign_2 * rise_2);
         if (!(separation <= max_separation)) continue;
-        const Vec3 from_box = middle + sign_1 * edge_1 + sign_2 * edge_2 - 0.5f * separation * n;
-        const Vec3 from_plane = center + from_box;
+        const Three from_box = middle + sign_1 * edge_1 + sign_2 * edge_2 - 0.5f * separation * n;
+        const Vec3 from_plane = vec3(center + from_box);
         const std::uint32_t vertex =
             face_bit(owner, k, sign) | face_bit(owner, k1, sign_1) | face_bit(owner, k2, sign_2);
-        push_point(manifold, {plane_is_a ? from_plane : from_box,
-                              plane_is_a ? from_box : from_plane, separation, vertex});
+        push_point(manifold, {plane_is_a ? from_plane : vec3(from_box),
+                              plane_is_a ? vec3(from_box) : from_plane, separation, vertex});
     }
 }
 
@@ -52,11 +52,12 @@ Manifold build_manifold(const Geometry& a, const Geometry& b, const Pose& b_in_a
     if (box_a && box_b) {
         push_box_box(manifold, make_box_pair(*box_a, *box_b, b_in_a), axis, max_separation);
     } else if (box_b && kind_of(a) == ShapeKind::Plane) {
-        push_plane_box(manifold, box_b->half_extents, to_matrix(b_in_a.rotation), b_in_a.position,
-                       axis.normal, true, axis.separation, max_separation);
+        push_plane_box(manifold, three(box_b->half_extents), to_matrix(b_in_a.rotation),
+                       three(b_in_a.position), three(axis.normal), true, axis.separation,
+                       max_separation);
     } else if (box_a && kind_of(b) == ShapeKind::Plane) {
-        push_plane_box(manifold, box_a->half_extents, Mat3{}, -b_in_a.position, -axis.normal, false,
-                       axis.separation, max_separation);
+        push_plane_box(manifold, three(box_a->half_extents), Mat3{}, -three(b_in_a.position),
+                       -three(axis.normal), false, axis.separation, max_separation);
     } else {
         push_witness(manifold, axis, 0);
     }

@@ -33,7 +33,7 @@ struct ClipPolygon {
 
 // The pair's first box is the reference, its second the subject. The normal is unit, from the first
 // to the second, along the axes of either; `first` and `second` number their features.
-ClipPolygon clip_faces(const BoxPair& pair, Vec3 n_in_first, Vec3 n_in_second, FaceOwner first,
+ClipPolygon clip_faces(const BoxPair& pair, Three n_in_first, Three n_in_second, FaceOwner first,
                        FaceOwner second);
 
 // Drops the corners whose gap is larger.

@@ -37,33 +37,32 @@ int find_deepest(const ClipPolygon& polygon) {
 // One side or several, one after the other.
 struct Stretch {
     float worth = 0;
-    int held = 0;  // the centres on the inner side of all of it: 1 the subject's, 2 the other
+    int held = 0;  // the centres on the inner side of all of it: 1 the subject's, 2 the reference's
 };
 
 Stretch operator+(Stretch x, Stretch y) { return {x.worth + y.worth, x.held & y.held}; }
 
-// All stretches of a polygon. `turn` is the sign of its area.
+// From every corner to every other. `turn` is the sign of the polygon's area.
 struct Stretches {
-    Stretch between[max_points][max_points];  // from the first to the second
-    Stretch around;                           // the whole polygon
+    float worth[max_points][max_points];
+    int held[max_points][max_points];
 
     Stretches(const ClipPolygon& polygon, float turn) {
-        for (int i = 0; i < polygon.count; ++i) {
-            for (int j = i + 1; j < polygon.count; ++j) measure(polygon, i, j, turn);
-        }
-        around = between[polygon.count - 1][0];
-        for (int i = 1; i < polygon.count; ++i) around = around + between[i - 1][i];
+        for (int i = 0; i < polygon.count; ++i) measure_from(polygon, i, turn);
     }
-    void measure(const ClipPolygon& polygon, int i, int j, float turn) {
-        const float p_i = polygon.p[i], p = polygon.p[j] - p_i;
-        const float q_i = polygon.q[i], q = polygon.q[j] - q_i;
+    // To all places of the polygon, taken or not: so compilers do four at a time.
+    void measure_from(const ClipPolygon& polygon, int i, float turn) {
+        const float p_i = polygon.p[i], q_i = polygon.q[i];
         const float to_p = p_i - polygon.center_p, to_q = q_i - polygon.center_q;
-        const float area = turn * (p_i * q - q_i * p),
-                    area_about_other = turn * (to_p * q - to_q * p);
-        const float length = length_weight * (p * p + q * q);
-        between[i][j] = {length + area, (area >= 0) | (area_about_other >= 0) << 1};
-        between[j][i] = {length - area, (area <= 0) | (area_about_other <= 0) << 1};
+        for (int j = 0; j < max_points; ++j) {
+            const float p = polygon.p[j] - p_i, q = polygon.q[j] - q_i;
+            const float by_subject = turn * (p_i * q - q_i * p);
+            const float by_reference = turn * (to_p * q - to_q * p);
+            worth[i][j] = by_subject + length_weight * (p * p + q * q);
+            held[i][j] = (by_subject >= 0 ? 1 : 0) | (by_reference >= 0 ? 2 : 0);
+        }
     }
+    Stretch operator()(int i, int j) const { return {worth[i][j], held[i][j]}; }
 };
 
 float twice_area(const ClipPolygon& polygon) {
@@ -79,8 +78,9 @@ float twice_area(const ClipPolygon& polygon) {
 void reduce_points(ClipPolygon& polygon) {
     const int n = polygon.count;
     if (n <= 4) return;
-    const Stretches all(polygon, twice_area(polygon) < 0 ? -1.0f : 1.0f);
-    const auto& between = all.between;
+    const Stretches between(polygon, twice_area(polygon) < 0 ? -1.0f : 1.0f);
+    int held_by_all = between.held[n - 1][0];
+    for (int i = 1; i < n; ++i) held_by_all &= between.held[i - 1][i];
     const int deepest = find_deepest(polygon);
     // What may follow a corner: the deepest or one before it, as long as that is still to come.
     const auto last_after = [&](int corner, int still_to_come) {
@@ -93,11 +93,11 @@ void reduce_points(ClipPolygon& polygon) {
     for (int i = 0; i <= last_after(-1, 3); ++i) {
         for (int j = i + 1; j <= last_after(i, 2); ++j) {
             for (int k = j + 1; k <= last_after(j, 1); ++k) {
-                const Stretch three = between[i][j] + between[j][k];
+                const Stretch three = between(i, j) + between(j, k);
                 for (int l = k < deepest ? deepest : k + 1; l <= last_after(k, 0); ++l) {
-                    const Stretch quad = three + between[k][l] + between[l][i];
+                    const Stretch quad = three + between(k, l) + between(l, i);
                     constexpr float share[4] = {1, 0.5f, 0.5f, 0.25f};
-                    const float worth = quad.worth * share[all.around.held & ~quad.held];
+                    const float worth = quad.worth * share[held_by_all & ~quad.held];
                     if (worth <= best_worth * clearly_larger) continue;
                     best_worth = worth;
                     best[0] = i, best[1] = j, best[2] = k, best[3] = l;
