@@ -15,8 +15,23 @@ constexpr int max_points = ClipPolygon::max_points;
 // A vertex this part of the smaller face's half width outside a side is moved to it.
 constexpr float relative_snap = 5e-3f;
 
-// Two opposite sides of the first box's face: x is the coordinate that they bound, about a middle.
+// A convex polygon in the first box's face: its corners' two coordinates and what meets there.
+struct Corners {
+    int count = 0;
+    float at[2][max_points];
+    std::uint32_t feature[max_points];
+
+    // A cut adds a corner at most; where rounding adds more, they are left out.
+    void push(int coordinate, float x, float y, std::uint32_t meeting) {
+        if (count == max_points) return;
+        at[coordinate][count] = x, at[1 - coordinate][count] = y, feature[count] = meeting;
+        ++count;
+    }
+};
+
+// Two opposite sides of the first box's face: they bound one coordinate, about a middle.
 struct Band {
+    int coordinate;
     float middle;
     float half;
     std::uint32_t faces[2];  // of the first box, at the lower and at the upper side
@@ -24,9 +39,12 @@ struct Band {
     float bound(int side) const { return middle + float(side) * half; }
 };
 
-// Cuts the polygon off at both sides of the band; y is the other coordinate.
-void cut_to_band(ClipPolygon& polygon, float* x, float* y, const Band& band, float snap) {
-    const int count = polygon.count;
+// Cuts the corners off at both sides of the band, into `kept`. False, and nothing kept, where all
+// are within.
+bool cut_to_band(Corners& corners, const Band& band, float snap, Corners& kept) {
+    const int count = corners.count;
+    float* const x = corners.at[band.coordinate];
+    const float* const y = corners.at[1 - band.coordinate];
     int side[max_points];  // on which a corner lies outside, -1 or 1; 0 within
     bool any_outside = false;
     for (int i = 0; i < count; ++i) {
@@ -36,41 +54,32 @@ void cut_to_band(ClipPolygon& polygon, float* x, float* y, const Band& band, flo
         any_outside |= is_outside;
         if (!is_outside) x[i] = clamp(x[i], band.bound(-1), band.bound(1));
     }
-    if (!any_outside) return;
+    if (!any_outside) return false;
 
-    const ClipPolygon whole = polygon;
-    const float* const from_x = x == polygon.p ? whole.p : whole.q;
-    const float* const from_y = x == polygon.p ? whole.q : whole.p;
-    int kept = 0;
-    const auto keep = [&](float at_x, float at_y, std::uint32_t feature) {
-        if (kept == max_points) return;
-        x[kept] = at_x, y[kept] = at_y, polygon.feature[kept] = feature;
-        ++kept;
-    };
-    const auto keep_crossing = [&](int in, int out) {
+    const auto push_crossing = [&](int in, int out) {
         const float bound = band.bound(side[out]);
         // A corner on the side itself is its own crossing.
-        if (from_x[in] == bound) return;
-        const float part = (bound - from_x[in]) / (from_x[out] - from_x[in]);
+        if (x[in] == bound) return;
+        const float part = (bound - x[in]) / (x[out] - x[in]);
         // What the ends share: an edge of the subject, or the side that was cut before; with this
         // side, a crossing of edges or a vertex of the reference over the subject's face.
-        keep(bound, from_y[in] + part * (from_y[out] - from_y[in]),
-             (whole.feature[in] & whole.feature[out]) | band.faces[side[out] > 0]);
+        kept.push(band.coordinate, bound, y[in] + part * (y[out] - y[in]),
+                  (corners.feature[in] & corners.feature[out]) | band.faces[side[out] > 0]);
     };
     for (int i = 0; i < count; ++i) {
         const int next = i + 1 == count ? 0 : i + 1;
-        if (side[i] == 0) keep(from_x[i], from_y[i], whole.feature[i]);
+        if (side[i] == 0) kept.push(band.coordinate, x[i], y[i], corners.feature[i]);
         if (side[i] == side[next]) continue;
-        if (side[i] != 0) keep_crossing(next, i);
-        if (side[next] != 0) keep_crossing(i, next);
+        if (side[i] != 0) push_crossing(next, i);
+        if (side[next] != 0) push_crossing(i, next);
     }
-    polygon.count = kept;
+    return true;
 }
 
 }  // namespace
 
 ClipPolygon clip_faces(const BoxPair& pair, Three n_in_first, Three n_in_second, FaceOwner first,
-                       FaceOwner second) {
+                       FaceOwner second, float max_separation) {
     // The first box's face that looks most along n, and the second's that looks most against it.
     const int k = steepest_axis(n_in_first), k1 = (k + 1) % 3, k2 = (k + 2) % 3;
     const int s = steepest_axis(n_in_second), s1 = (s + 1) % 3, s2 = (s + 2) % 3;
@@ -87,43 +96,42 @@ ClipPolygon clip_faces(const BoxPair& pair, Three n_in_first, Three n_in_second,
     const Three edge_1 = place(h_s1 * turn_to(pair.axes_b[s1], k));
     const Three edge_2 = place(h_s2 * turn_to(pair.axes_b[s2], k));
     constexpr float turn[4][2] = {{1, 1}, {-1, 1}, {-1, -1}, {1, -1}};
-    ClipPolygon polygon;
-    polygon.count = 4;
+    Corners vertices, cut_once, cut_twice;
     const std::uint32_t faces = face_bit(first, k, sign) | face_bit(second, s, sign_s);
     for (int i = 0; i < 4; ++i) {
         const auto& [sign_1, sign_2] = turn[i];
         const Three corner = middle + (sign_1 * edge_1 + sign_2 * edge_2);
-        polygon.p[i] = corner[0], polygon.q[i] = corner[1];
-        polygon.feature[i] = faces | face_bit(second, s1, sign_1) | face_bit(second, s2, sign_2);
+        vertices.push(0, corner[0], corner[1],
+                      faces | face_bit(second, s1, sign_1) | face_bit(second, s2, sign_2));
     }
 
     // The first box's face stands about the place of its own middle.
     const Three around = place(Three{0, 0, sign * h[2], 0} - t);
     const float snap = relative_snap * min(min(h[0], h[1]), min(h_s1, h_s2));
-    const Band band_p = {around[0], h[0], {face_bit(first, k1, -1), face_bit(first, k1, 1)}};
-    const Band band_q = {around[1], h[1], {face_bit(first, k2, -1), face_bit(first, k2, 1)}};
-    cut_to_band(polygon, polygon.p, polygon.q, band_p, snap);
-    cut_to_band(polygon, polygon.q, polygon.p, band_q, snap);
+    const Band bands[2] = {{0, around[0], h[0], {face_bit(first, k1, -1), face_bit(first, k1, 1)}},
+                           {1, around[1], h[1], {face_bit(first, k2, -1), face_bit(first, k2, 1)}}};
+    Corners* corners = &vertices;
+    if (cut_to_band(*corners, bands[0], snap, cut_once)) corners = &cut_once;
+    if (cut_to_band(*corners, bands[1], snap, cut_twice)) corners = &cut_twice;
 
     // Both faces' heights along n above the plane through the second box's centre.
     const Three center = place(-t);
+    ClipPolygon polygon;
     polygon.center_p = center[0], polygon.center_q = center[1];
     polygon.axis = k;
     polygon.height = (h[2] - sign * t[2]) / (sign * n[2]);
-    const Three climb = (1.0f / absolute(n_in_second[s])) * m;
-    const float level = -h_s / absolute(n_in_second[s]) - polygon.height;
-    for (int i = 0; i < polygon.count; ++i) {
-        polygon.separation[i] = level + (polygon.p[i] * climb[0] + polygon.q[i] * climb[1]);
+    const float steepness = 1.0f / absolute(n_in_second[s]);
+    const float climb_p = steepness * m[0], climb_q = steepness * m[1];
+    const float level = -h_s * steepness - polygon.height;
+    for (int i = 0; i < corners->count; ++i) {
+        const float p = corners->at[0][i], q = corners->at[1][i];
+        const float separation = level + (p * climb_p + q * climb_q);
+        if (!(separation <= max_separation)) continue;
+        const int to = polygon.count++;
+        polygon.p[to] = p, polygon.q[to] = q;
+        polygon.separation[to] = separation, polygon.feature[to] = corners->feature[i];
     }
     return polygon;
-}
-
-void keep_nearer(ClipPolygon& polygon, float max_separation) {
-    int kept = 0;
-    for (int i = 0; i < polygon.count; ++i) {
-        if (polygon.separation[i] <= max_separation) move_corner(polygon, i, kept++);
-    }
-    polygon.count = kept;
 }
 
 }  // namespace cairn

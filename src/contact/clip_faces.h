@@ -32,12 +32,10 @@ struct ClipPolygon {
 };
 
 // The pair's first box is the reference, its second the subject. The normal is unit, from the first
-// to the second, along the axes of either; `first` and `second` number their features.
+// to the second, along the axes of either; `first` and `second` number their features. Corners
+// whose gap is larger than `max_separation` are left out.
 ClipPolygon clip_faces(const BoxPair& pair, Three n_in_first, Three n_in_second, FaceOwner first,
-                       FaceOwner second);
-
-// Drops the corners whose gap is larger.
-void keep_nearer(ClipPolygon& polygon, float max_separation);
+                       FaceOwner second, float max_separation);
 
 // Puts corner `from` in the place of corner `to`.
 inline void move_corner(ClipPolygon& polygon, int from, int to) {

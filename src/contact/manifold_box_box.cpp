@@ -34,24 +34,21 @@ int count_level(Three slope) {
 void push_faces(Manifold& manifold, const BoxPair& pair, Three n, Three m, float max_separation) {
     // The smaller box is the subject, so that its arms are exact to its own size.
     const bool b_is_first = sum(pair.h_a) < clearly_smaller * sum(pair.h_b);
-    ClipPolygon polygon = b_is_first
-                              ? clip_faces(seen_from_b(pair), -m, -n, FaceOwner::B, FaceOwner::A)
-                              : clip_faces(pair, n, m, FaceOwner::A, FaceOwner::B);
-    keep_nearer(polygon, max_separation);
+    ClipPolygon polygon =
+        b_is_first
+            ? clip_faces(seen_from_b(pair), -m, -n, FaceOwner::B, FaceOwner::A, max_separation)
+            : clip_faces(pair, n, m, FaceOwner::A, FaceOwner::B, max_separation);
     reduce_points(polygon);
 
     // Along A's axes again.
     const int k1 = (polygon.axis + 1) % 3, k2 = (polygon.axis + 2) % 3;
-    Three u = {}, v = {};
-    if (b_is_first) {
-        u = pair.axes_b[k1], v = pair.axes_b[k2], n = -n;
-    } else {
-        u[k1] = 1, v[k2] = 1;
-    }
+    const Three u = b_is_first ? pair.axes_b[k1] : unit_three(k1);
+    const Three v = b_is_first ? pair.axes_b[k2] : unit_three(k2);
+    const Three up = b_is_first ? -n : n;
     const Three to_a = b_is_first ? Three{} : pair.t, to_b = b_is_first ? -pair.t : Three{};
     for (int i = 0; i < polygon.count; ++i) {
         const float height = polygon.height + 0.5f * polygon.separation[i];
-        const Three position = polygon.p[i] * u + polygon.q[i] * v + height * n;
+        const Three position = polygon.p[i] * u + polygon.q[i] * v + height * up;
         push_point(manifold, {vec3(position + to_a), vec3(position + to_b), polygon.separation[i],
                               polygon.feature[i]});
     }
@@ -81,8 +78,7 @@ Extreme find_extreme(Three slope, Three half_extents, FaceOwner owner) {
 // False where they share none.
 bool push_parallel_edges(Manifold& manifold, const BoxPair& pair, const Extreme& on_a,
                          const Extreme& on_b, Three n, float separation) {
-    Three e = {};
-    e[on_a.level_axis] = 1;
+    const Three e = unit_three(on_a.level_axis);
     const Three u = pair.axes_b[on_b.level_axis], across = cross(e, u);
     if (dot(across, across) > parallel_edges * parallel_edges) return false;
     const Three center_b = along_a(pair, on_b.center);

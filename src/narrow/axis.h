@@ -20,7 +20,8 @@ struct Axis {
 
 // What the last step found for this pair, kept by the contact store: where two axes are as good as
 // each other the method stays with the one it had, so that a resting box keeps its contact points.
-struct AxisHint {
+// Aligned so that it is copied as one number.
+struct alignas(4) AxisHint {
     std::uint8_t kind = 0;  // the method's own code; 0: nothing is known
     std::uint8_t index_a = 0;
     std::uint8_t index_b = 0;

@@ -84,11 +84,8 @@ bool find_axis_box_box(const BoxPair& pair, NarrowPhase method, const Reach& rea
         hint = along.feature;
         return true;
     };
-    SeparatingAxis last;
-    if (hint.kind != 0) {
-        last = measure_axis(pair, hint);
-        if (is_beyond(last)) return false;
-    }
+    const SeparatingAxis last = hint.kind != 0 ? measure_axis(pair, hint) : SeparatingAxis{};
+    if (hint.kind != 0 && is_beyond(last)) return false;
     const Vec3 t = vec3(pair.t);
     Vec3 toward_b = t == Vec3{} ? Vec3{0, 1, 0} : t;
     if (method == NarrowPhase::Sat) {

@@ -22,8 +22,9 @@ BoxWitness meet_face(const BoxPair& pair, int k, float sign, float yielding) {
     const Choice is_level = rise <= yielding;
     const Three corner = farthest_corner(slope, pair.h_b);
     Three local = is_level ? Three{} : corner;
-    Three within = pair.h_a + relative_border * pair.h_a;
-    within[k] = std::numeric_limits<float>::max();
+    constexpr float unbounded = std::numeric_limits<float>::max();
+    const Three border = pair.h_a + relative_border * pair.h_a;
+    const Three within = lane(k) ? Three{} + unbounded : border;
 
     Three on_other, on_face;
     bool is_inside = false;
@@ -41,29 +42,24 @@ BoxWitness meet_face(const BoxPair& pair, int k, float sign, float yielding) {
         local = next_local;
     }
     // Straight down onto the face.
-    on_face[k] = sign * pair.h_a[k];
-    return {on_face, on_other, is_inside};
+    return {lane(k) ? sign * pair.h_a : on_face, on_other, is_inside};
 }
 
 // The nearest points of the two edges that face each other along n.
 BoxWitness meet_edges(const BoxPair& pair, int i, int j, Three n) {
-    Three center_a = farthest_corner(n, pair.h_a);
-    center_a[i] = 0;
-    Three local_b = farthest_corner(-along_b(pair, n), pair.h_b);
-    local_b[j] = 0;
-    const Three center_b = along_a(pair, local_b);
+    const Three center_a = lane(i) ? Three{} : farthest_corner(n, pair.h_a);
+    const Three corner_b = farthest_corner(-along_b(pair, n), pair.h_b);
+    const Three center_b = along_a(pair, lane(j) ? Three{} : corner_b);
     const Three u = pair.axes_b[j];
     // Minimise |d + r u - s e|^2 over s and r; e is A's axis i.
     const Three d = pair.t + center_b - center_a;
     const float c = u[i], d_e = d[i], d_u = dot(d, u);
-    Three across = u;
-    across[i] = 0;
+    const Three across = lane(i) ? Three{} : u;
     const float squared_sine = dot(across, across);
     const float s = (d_e - c * d_u) / squared_sine, r = (c * d_e - d_u) / squared_sine;
     const float half_a = pair.h_a[i], half_b = pair.h_b[j];
-    Three point_a = center_a;
-    point_a[i] = clamp(s, -half_a, half_a);
-    return {point_a, center_b + clamp(r, -half_b, half_b) * u,
+    return {center_a + clamp(s, -half_a, half_a) * unit_three(i),
+            center_b + clamp(r, -half_b, half_b) * u,
             absolute(s) <= half_a && absolute(r) <= half_b};
 }
 

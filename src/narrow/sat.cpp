@@ -97,15 +97,14 @@ AxisPreference axis_preference(const BoxPair& pair) {
 
 SeparatingAxis measure_axis(const BoxPair& pair, AxisHint f) {
     const int i = f.index_a, j = f.index_b;
-    Three axis = {};  // along A's axes
+    Three axis;  // along A's axes
     switch (BoxAxisKind(f.kind)) {
-        case BoxAxisKind::FaceA: axis[i] = 1; break;
+        case BoxAxisKind::FaceA: axis = unit_three(i); break;
         case BoxAxisKind::FaceB: axis = pair.axes_b[j]; break;
         default: {
-            axis[i] = 1;
-            const Three across = cross(axis, pair.axes_b[j]);
+            const Three across = cross(unit_three(i), pair.axes_b[j]);
             const float length = square_root(dot(across, across));
-            if (length < parallel_edges) return {axis, lowest, f};
+            if (length < parallel_edges) return {unit_three(i), lowest, f};
             axis = (1.0f / length) * across;
         }
     }

@@ -30,6 +30,14 @@ inline bool any(Choice choice) {
     return (half[0] | half[1]) != 0;
 }
 
+// True in lane k alone: a single lane written by itself would have to wait in memory for the
+// others.
+inline Choice lane(int k) {
+    static constexpr Choice lanes[3] = {{-1, 0, 0, 0}, {0, -1, 0, 0}, {0, 0, -1, 0}};
+    return lanes[k];
+}
+inline Three unit_three(int k) { return lane(k) ? Three{1, 1, 1, 0} : Three{}; }
+
 // Lane k holds what was in the lane after it in turn, or in the one before it.
 inline Three next(Three v) { return __builtin_shufflevector(v, v, 1, 2, 0, 3); }
 inline Three last(Three v) { return __builtin_shufflevector(v, v, 2, 0, 1, 3); }
