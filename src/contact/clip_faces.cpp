@@ -1,169 +1,135 @@
 // Clipping one face of a box against another; see clip_faces.h.
 //
-// Symbols: n from the subject to the other, c the other's centre from the subject's, m_s and m_o
-// the outward normals of the two faces (m_s . n > 0, m_o . n < 0), u and v the edges of the other's
-// face. Coordinates (p, q): the point p u + q v + w n, by the dual vectors d_u = v x n / (u . v x
-// n) and d_v.
+// Symbols, along the first box's axes, taken in turn so that the one across its face is the third:
+// n the normal, t the second box's centre from the first's. A point x has the coordinates (p, q) of
+// the place where its line along n meets the plane through the second box's centre:
+// p = x_1 - x_3 n_1 / n_3 and q = x_2 - x_3 n_2 / n_3.
 
 #include "contact/clip_faces.h"
-
-#include <utility>
 
 namespace cairn {
 namespace {
 
+constexpr int max_points = ClipPolygon::max_points;
+
 // A vertex this part of the smaller face's half width outside a side is moved to it.
 constexpr float relative_snap = 5e-3f;
 
-struct Corner {
-    float p = 0, q = 0;
-    BoxFeature of_subject, of_other;
-};
-
-// A convex polygon can gain one corner at each of the four sides.
+// A convex polygon in the first box's face: its corners' two coordinates and what meets there.
 struct Corners {
-    std::array<Corner, ClipPolygon::max_points> at;
     int count = 0;
-    void push(const Corner& corner) {
-        if (count < ClipPolygon::max_points) at[std::size_t(count++)] = corner;
+    float at[2][max_points];
+    std::uint32_t feature[max_points];
+
+    // A cut adds a corner at most; where rounding adds more, they are left out.
+    void push(int coordinate, float x, float y, std::uint32_t meeting) {
+        if (count == max_points) return;
+        at[coordinate][count] = x, at[1 - coordinate][count] = y, feature[count] = meeting;
+        ++count;
     }
 };
 
-// One side of the other face: the coordinate (p or q) that it bounds and the one along it, the box
-// axis that it lies across, its sign and bound.
-struct Side {
-    float Corner::*coordinate;
-    float Corner::*along;
-    int axis;
-    std::int8_t sign;
-    float bound;
+// Two opposite sides of the first box's face: they bound one coordinate, about a middle.
+struct Band {
+    int coordinate;
+    float middle;
+    float half;
+    std::uint32_t faces[2];  // of the first box, at the lower and at the upper side
+
+    float bound(int side) const { return middle + float(side) * half; }
 };
 
-// Where the polygon's edge from `in` to `out` crosses the side.
-Corner cut_edge(const Corner& in, const Corner& out, const Side& side) {
-    const float from = in.*side.coordinate, to = out.*side.coordinate;
-    const float part = (side.bound - from) / (to - from);
-    Corner cut;
-    cut.*side.coordinate = side.bound;
-    cut.*side.along = in.*side.along + part * (out.*side.along - in.*side.along);
-    // What the ends share: an edge of the subject, or the side of the other that was cut before;
-    // with this side, a crossing of edges or a vertex of the other over the subject's face.
-    cut.of_subject = common_feature(in.of_subject, out.of_subject);
-    cut.of_other = common_feature(in.of_other, out.of_other);
-    cut.of_other.signs[side.axis] = side.sign;
-    return cut;
-}
-
-// Cuts the polygon off at the side, into `kept`; false, and nothing done, where all of it is
-// inside.
-bool clip(Corners& polygon, const Side& side, float snap, Corners& kept) {
-    const float sign = float(side.sign), bound = side.bound;
-    std::array<bool, ClipPolygon::max_points> is_inside;
-    bool all_inside = true;
-    for (int i = 0; i < polygon.count; ++i) {
-        Corner& corner = polygon.at[std::size_t(i)];
-        const float beyond = sign * (corner.*side.coordinate - bound);
-        is_inside[std::size_t(i)] = beyond <= snap;
-        all_inside &= beyond <= snap;
-        if (beyond > 0 && beyond <= snap) corner.*side.coordinate = bound;
+// Cuts the corners off at both sides of the band, into `kept`. False, and nothing kept, where all
+// are within.
+bool cut_to_band(Corners& corners, const Band& band, float snap, Corners& kept) {
+    const int count = corners.count;
+    float* const x = corners.at[band.coordinate];
+    const float* const y = corners.at[1 - band.coordinate];
+    int side[max_points];  // on which a corner lies outside, -1 or 1; 0 within
+    bool any_outside = false;
+    for (int i = 0; i < count; ++i) {
+        const float across = x[i] - band.middle;
+        const bool is_outside = absolute(across) > band.half + snap;
+        side[i] = !is_outside ? 0 : across < 0 ? -1 : 1;
+        any_outside |= is_outside;
+        if (!is_outside) x[i] = clamp(x[i], band.bound(-1), band.bound(1));
     }
-    if (all_inside) return false;
-    kept.count = 0;
-    for (int i = 0; i < polygon.count; ++i) {
-        const int next = i + 1 == polygon.count ? 0 : i + 1;
-        const Corner &a = polygon.at[std::size_t(i)], &b = polygon.at[std::size_t(next)];
-        const bool a_in = is_inside[std::size_t(i)], b_in = is_inside[std::size_t(next)];
-        if (a_in) kept.push(a);
+    if (!any_outside) return false;
+
+    const auto push_crossing = [&](int in, int out) {
+        const float bound = band.bound(side[out]);
         // A corner on the side itself is its own crossing.
-        if (a_in && !b_in && a.*side.coordinate != bound) kept.push(cut_edge(a, b, side));
-        if (!a_in && b_in && b.*side.coordinate != bound) kept.push(cut_edge(b, a, side));
+        if (x[in] == bound) return;
+        const float part = (bound - x[in]) / (x[out] - x[in]);
+        // What the ends share: an edge of the subject, or the side that was cut before; with this
+        // side, a crossing of edges or a vertex of the reference over the subject's face.
+        kept.push(band.coordinate, bound, y[in] + part * (y[out] - y[in]),
+                  (corners.feature[in] & corners.feature[out]) | band.faces[side[out] > 0]);
+    };
+    for (int i = 0; i < count; ++i) {
+        const int next = i + 1 == count ? 0 : i + 1;
+        if (side[i] == 0) kept.push(band.coordinate, x[i], y[i], corners.feature[i]);
+        if (side[i] == side[next]) continue;
+        if (side[i] != 0) push_crossing(next, i);
+        if (side[next] != 0) push_crossing(i, next);
     }
     return true;
 }
 
-BoxFeature feature_of(const BoxFace& face) {
-    BoxFeature feature;
-    feature.signs[face.axis] = face.sign < 0 ? -1 : 1;
-    return feature;
-}
-
-// The half width of the face across its narrower direction.
-float smallest_half_width(const PlacedBox& box, const BoxFace& face) {
-    return min(component(box.half_extents, (face.axis + 1) % 3),
-               component(box.half_extents, (face.axis + 2) % 3));
-}
-
-// The face's four vertices, in order around it.
-Corners corners_of(const PlacedBox& box, const BoxFace& face, Vec3 d_u, Vec3 d_v) {
-    const int k1 = (face.axis + 1) % 3, k2 = (face.axis + 2) % 3;
-    constexpr std::int8_t turn[4][2] = {{1, 1}, {-1, 1}, {-1, -1}, {1, -1}};
-    Corners corners;
-    for (const auto& [sign1, sign2] : turn) {
-        BoxFeature vertex = feature_of(face);
-        vertex.signs[k1] = sign1, vertex.signs[k2] = sign2;
-        const Vec3 signs = {float(vertex.signs[0]), float(vertex.signs[1]), float(vertex.signs[2])};
-        const Vec3 position = box.axes * multiply(signs, box.half_extents);
-        corners.push({dot(d_u, position), dot(d_v, position), vertex, {}});
-    }
-    return corners;
-}
-
 }  // namespace
 
-BoxFace face_along(const PlacedBox& box, Vec3 n) {
-    const Vec3 slope = multiply_transposed(box.axes, n);
-    // A trifle of favour for the first axes, so that ties do not hang on rounding.
-    constexpr float clearly = 1.0f + 1e-3f;
-    int axis = 0;
-    for (int k = 1; k < 3; ++k) {
-        if (absolute(component(slope, k)) > clearly * absolute(component(slope, axis))) axis = k;
-    }
-    return {axis, component(slope, axis) < 0 ? -1.0f : 1.0f};
-}
+ClipPolygon clip_faces(const BoxPair& pair, Three n_in_first, Three n_in_second, FaceOwner first,
+                       FaceOwner second, float max_separation) {
+    // The first box's face that looks most along n, and the second's that looks most against it.
+    const int k = steepest_axis(n_in_first), k1 = (k + 1) % 3, k2 = (k + 2) % 3;
+    const int s = steepest_axis(n_in_second), s1 = (s + 1) % 3, s2 = (s + 2) % 3;
+    const Three n = turn_to(n_in_first, k), t = turn_to(pair.t, k), h = turn_to(pair.h_a, k);
+    const float h_s = pair.h_b[s], h_s1 = pair.h_b[s1], h_s2 = pair.h_b[s2];
+    const float sign = n[2] < 0 ? -1.0f : 1.0f;
+    const float sign_s = n_in_second[s] < 0 ? 1.0f : -1.0f;
+    const Three m = sign_s * turn_to(pair.axes_b[s], k);  // outward from the second's face
 
-ClipPolygon clip_faces(const PlacedBox& subject, const PlacedBox& other, Vec3 c, Vec3 n) {
-    const BoxFace face_s = face_along(subject, n), face_o = face_along(other, -n);
-    const int o1 = (face_o.axis + 1) % 3, o2 = (face_o.axis + 2) % 3;
-    const Vec3 u = column(other.axes, o1), v = column(other.axes, o2);
-    const float scale = 1.0f / dot(u, cross(v, n));
-    const Vec3 d_u = scale * cross(v, n), d_v = scale * cross(n, u);
-    const Vec3 m_s = face_s.sign * column(subject.axes, face_s.axis);
-    const Vec3 m_o = face_o.sign * column(other.axes, face_o.axis);
-    const float h_s = component(subject.half_extents, face_s.axis);
-    const float h_o = component(other.half_extents, face_o.axis);
-
-    // The subject's face, cut by the four sides that stand about the middle of the other's.
-    Corners both[2] = {corners_of(subject, face_s, d_u, d_v), {}};
-    Corners* corners = &both[0];
-    Corners* spare = &both[1];
-    const Vec3 middle = c + h_o * m_o;
-    const float p = dot(d_u, middle), q = dot(d_v, middle);
-    const float h1 = component(other.half_extents, o1), h2 = component(other.half_extents, o2);
-    const float snap = relative_snap * min(min(h1, h2), smallest_half_width(subject, face_s));
-    const BoxFeature face = feature_of(face_o);
-    const Side sides[4] = {{&Corner::p, &Corner::q, o1, 1, p + h1},
-                           {&Corner::p, &Corner::q, o1, -1, p - h1},
-                           {&Corner::q, &Corner::p, o2, 1, q + h2},
-                           {&Corner::q, &Corner::p, o2, -1, q - h2}};
-    for (int i = 0; i < corners->count; ++i) corners->at[std::size_t(i)].of_other = face;
-    for (const Side& side : sides) {
-        if (clip(*corners, side, snap, *spare)) std::swap(corners, spare);
+    // From a point to its place (p, q).
+    const Three lean = (1.0f / n[2]) * n;
+    const auto place = [&](Three x) { return x - x[2] * lean; };
+    const Three middle = place(h_s * m);
+    const Three edge_1 = place(h_s1 * turn_to(pair.axes_b[s1], k));
+    const Three edge_2 = place(h_s2 * turn_to(pair.axes_b[s2], k));
+    constexpr float turn[4][2] = {{1, 1}, {-1, 1}, {-1, -1}, {1, -1}};
+    Corners vertices, cut_once, cut_twice;
+    const std::uint32_t faces = face_bit(first, k, sign) | face_bit(second, s, sign_s);
+    for (int i = 0; i < 4; ++i) {
+        const auto& [sign_1, sign_2] = turn[i];
+        const Three corner = middle + (sign_1 * edge_1 + sign_2 * edge_2);
+        vertices.push(0, corner[0], corner[1],
+                      faces | face_bit(second, s1, sign_1) | face_bit(second, s2, sign_2));
     }
 
-    // Both faces' heights along n above the plane through the subject's centre along u and v.
-    const float height_o = (dot(m_o, c) + h_o) / dot(m_o, n);
-    const float steepness = 1.0f / dot(m_s, n);
-    const float slope_p = dot(m_s, u) * steepness, slope_q = dot(m_s, v) * steepness;
+    // The first box's face stands about the place of its own middle.
+    const Three around = place(Three{0, 0, sign * h[2], 0} - t);
+    const float snap = relative_snap * min(min(h[0], h[1]), min(h_s1, h_s2));
+    const Band bands[2] = {{0, around[0], h[0], {face_bit(first, k1, -1), face_bit(first, k1, 1)}},
+                           {1, around[1], h[1], {face_bit(first, k2, -1), face_bit(first, k2, 1)}}};
+    Corners* corners = &vertices;
+    if (cut_to_band(*corners, bands[0], snap, cut_once)) corners = &cut_once;
+    if (cut_to_band(*corners, bands[1], snap, cut_twice)) corners = &cut_twice;
+
+    // Both faces' heights along n above the plane through the second box's centre.
+    const Three center = place(-t);
     ClipPolygon polygon;
-    polygon.other_p = dot(d_u, c), polygon.other_q = dot(d_v, c);
+    polygon.center_p = center[0], polygon.center_q = center[1];
+    polygon.axis = k;
+    polygon.height = (h[2] - sign * t[2]) / (sign * n[2]);
+    const float steepness = 1.0f / absolute(n_in_second[s]);
+    const float climb_p = steepness * m[0], climb_q = steepness * m[1];
+    const float level = -h_s * steepness - polygon.height;
     for (int i = 0; i < corners->count; ++i) {
-        const Corner& corner = corners->at[std::size_t(i)];
-        const float height_s = h_s * steepness - corner.p * slope_p - corner.q * slope_q;
-        ClipPoint& point = polygon.points[std::size_t(polygon.count++)];
-        point.position = corner.p * u + corner.q * v + 0.5f * (height_s + height_o) * n;
-        point.separation = height_o - height_s;
-        point.p = corner.p, point.q = corner.q;
-        point.of_subject = corner.of_subject, point.of_other = corner.of_other;
+        const float p = corners->at[0][i], q = corners->at[1][i];
+        const float separation = level + (p * climb_p + q * climb_q);
+        if (!(separation <= max_separation)) continue;
+        const int to = polygon.count++;
+        polygon.p[to] = p, polygon.q[to] = q;
+        polygon.separation[to] = separation, polygon.feature[to] = corners->feature[i];
     }
     return polygon;
 }

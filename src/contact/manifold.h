@@ -1,11 +1,11 @@
 #pragma once
-// A contact manifold: up to four points at which two shapes touch or nearly do, sharing one normal.
-// Everything along shape A's axes.
+// A contact manifold: up to four points at which two shapes touch or nearly do, sharing one
+// normal. Everything along shape A's axes.
 
 #include <array>
 #include <cstdint>
 
-#include "math/vec3.h"
+#include "narrow/axis.h"
 
 namespace cairn {
 
@@ -24,5 +24,16 @@ struct Manifold {
     int point_count = 0;
     std::array<ManifoldPoint, 4> points;
 };
+
+inline void push_point(Manifold& manifold, const ManifoldPoint& point) {
+    manifold.points[std::size_t(manifold.point_count++)] = point;
+}
+
+// The axis's own two witnesses, and the point halfway between them.
+inline void push_witness(Manifold& manifold, const Axis& axis, std::uint32_t feature) {
+    const Vec3 half_gap = 0.5f * axis.separation * axis.normal;
+    push_point(manifold,
+               {axis.point_a + half_gap, axis.point_b - half_gap, axis.separation, feature});
+}
 
 }  // namespace cairn

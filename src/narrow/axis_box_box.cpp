@@ -21,7 +21,8 @@ namespace {
 std::optional<Axis> axis_along(const BoxPair& pair, const SeparatingAxis& along, float yielding) {
     const BoxWitness witness = find_witness(pair, along, yielding);
     if (along.separation > 0 && !witness.is_on_both) return std::nullopt;
-    return Axis{along.normal, along.separation, witness.point_a, witness.point_b, true};
+    return Axis{vec3(along.normal), along.separation, vec3(witness.point_a), vec3(witness.point_b),
+                true};
 }
 
 // The edge pair whose axis is the given normal, to 1e-3 radians; an unknown kind where there is
@@ -34,7 +35,7 @@ SeparatingAxis edge_pair_along(const BoxPair& pair, Vec3 normal) {
         for (std::uint8_t j = 0; j < 3; ++j) {
             const AxisHint feature = {std::uint8_t(BoxAxisKind::EdgePair), i, j};
             const SeparatingAxis candidate = measure_axis(pair, feature);
-            const float alignment = dot(candidate.normal, normal);
+            const float alignment = dot(vec3(candidate.normal), normal);
             if (alignment <= nearest_cosine) continue;
             nearest_cosine = alignment;
             nearest = candidate;
@@ -46,9 +47,9 @@ SeparatingAxis edge_pair_along(const BoxPair& pair, Vec3 normal) {
 // The axis that GJK or EPA found, put on the one of the 15 that it stands for: the last step's
 // while it is nearly as good, the best face if that is, the edge pair that lies along it. `hint`
 // says which it was.
-Axis on_nearest_feature(const BoxPair& pair, const Axis& found, AxisHint& hint) {
+Axis on_nearest_feature(const BoxPair& pair, const Axis& found, const SeparatingAxis& last,
+                        AxisHint& hint) {
     const AxisPreference preference = axis_preference(pair);
-    const SeparatingAxis last = hint.kind != 0 ? measure_axis(pair, hint) : SeparatingAxis{};
     struct Candidate {
         SeparatingAxis axis;
         float yielding;  // how much worse than what was found it may be
@@ -75,23 +76,38 @@ Axis on_nearest_feature(const BoxPair& pair, const Axis& found, AxisHint& hint) 
 
 }  // namespace
 
-Axis find_axis_box_box(const Box& a, const Box& b, const Pose& b_in_a, NarrowPhase method,
-                       AxisHint& hint) {
-    const BoxPair pair = make_box_pair(a, b, b_in_a);
-    Vec3 toward_b = pair.t == Vec3{} ? Vec3{0, 1, 0} : pair.t;
+bool find_axis_box_box(const BoxPair& pair, NarrowPhase method, const Reach& reach, AxisHint& hint,
+                       Axis& axis) {
+    const auto is_beyond = [&](const SeparatingAxis& along) {
+        const Vec3 n = vec3(along.normal);
+        if (!(along.separation > reach.along(n))) return false;
+        axis.normal = n, axis.separation = along.separation;
+        hint = along.feature;
+        return true;
+    };
+    const SeparatingAxis last = hint.kind != 0 ? measure_axis(pair, hint) : SeparatingAxis{};
+    if (hint.kind != 0 && is_beyond(last)) return false;
+    const Vec3 t = vec3(pair.t);
+    Vec3 toward_b = t == Vec3{} ? Vec3{0, 1, 0} : t;
     if (method == NarrowPhase::Sat) {
-        const SeparatingAxis best = find_separating_axis(pair, hint);
         const AxisPreference preference = axis_preference(pair);
+        const SeparatingAxis best = find_separating_axis(pair, last, preference, reach);
+        if (is_beyond(best)) return false;
         const float yielding =
             is_same(best.feature, hint) ? preference.new_over_last : preference.edge_over_face;
-        if (const std::optional<Axis> axis = axis_along(pair, best, yielding)) {
+        if (const std::optional<Axis> found = axis_along(pair, best, yielding)) {
             hint = best.feature;
-            return *axis;
+            axis = *found;
+            return true;
         }
-        toward_b = best.normal;
+        toward_b = vec3(best.normal);
     }
-    const Axis found = find_axis_convex(convex_shape(a), convex_shape(b), b_in_a, toward_b);
-    return on_nearest_feature(pair, found, hint);
+    const Box a = {vec3(pair.h_a)}, b = {vec3(pair.h_b)};
+    const auto& u = pair.axes_b;
+    const Axis found = find_axis_convex(
+        {convex_shape(a), convex_shape(b), t, {vec3(u[0]), vec3(u[1]), vec3(u[2])}}, toward_b);
+    axis = on_nearest_feature(pair, found, last, hint);
+    return axis.separation <= reach.along(axis.normal);
 }
 
 }  // namespace cairn

@@ -7,8 +7,8 @@
 namespace cairn {
 
 struct BoxWitness {
-    Vec3 point_a;  // from A's centre, along A's axes
-    Vec3 point_b;  // from B's centre, along A's axes
+    Three point_a;  // from A's centre, along A's axes
+    Three point_b;  // from B's centre, along A's axes
     // True where both points lie on their boxes, one straight across from the other along the axis.
     // Then the separation is the distance, since no axis can claim more than that.
     bool is_on_both = false;

@@ -8,26 +8,24 @@
 namespace cairn {
 namespace {
 
-Axis grow_by_radii(WideVec3 n, double separation, WideVec3 point_a, WideVec3 point_b,
-                   float radius_a, float radius_b) {
-    const double r_a = radius_a, r_b = radius_b;
+Axis grow_by_radii(const MinkowskiDifference& difference, WideVec3 n, double separation,
+                   WideVec3 point_a, WideVec3 point_b) {
+    const double r_a = difference.radius_a(), r_b = difference.radius_b();
     return {narrow(n), float(separation - (r_a + r_b)), narrow(point_a + r_a * n),
             narrow(point_b - r_b * n)};
 }
 
 }  // namespace
 
-Axis find_axis_convex(const ConvexShape& a, const ConvexShape& b, const Pose& b_in_a,
-                      Vec3 toward_b) {
-    const MinkowskiDifference difference(a, b, b_in_a);
+Axis find_axis_convex(const MinkowskiDifference& difference, Vec3 toward_b) {
     const GjkResult gjk = find_closest_points(difference, widen(toward_b));
     if (!gjk.overlap) {
         const double distance = length(gjk.closest);
         const WideVec3 toward = (-1.0 / distance) * gjk.closest;
-        return grow_by_radii(toward, distance, gjk.point_a, gjk.point_b, a.radius, b.radius);
+        return grow_by_radii(difference, toward, distance, gjk.point_a, gjk.point_b);
     }
     const EpaResult epa = find_penetration(difference, gjk.simplex);
-    return grow_by_radii(epa.normal, -epa.depth, epa.point_a, epa.point_b, a.radius, b.radius);
+    return grow_by_radii(difference, epa.normal, -epa.depth, epa.point_a, epa.point_b);
 }
 
 }  // namespace cairn

@@ -8,7 +8,6 @@
 namespace cairn {
 
 // `toward_b` is a guess at the normal, of any length but 0; a good one saves rounds.
-Axis find_axis_convex(const ConvexShape& a, const ConvexShape& b, const Pose& b_in_a,
-                      Vec3 toward_b);
+Axis find_axis_convex(const MinkowskiDifference& difference, Vec3 toward_b);
 
 }  // namespace cairn

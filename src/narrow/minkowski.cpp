@@ -15,15 +15,14 @@ Vec3 as_direction(WideVec3 d) {
 
 }  // namespace
 
-MinkowskiDifference::MinkowskiDifference(const ConvexShape& a, const ConvexShape& b,
-                                         const Pose& b_in_a)
+MinkowskiDifference::MinkowskiDifference(const ConvexShape& a, const ConvexShape& b, Vec3 t,
+                                         const Mat3& axes_b)
     : a_(a),
       b_(b),
-      axes_b_(to_matrix(b_in_a.rotation)),
-      t_(widen(b_in_a.position)),
-      u_x_(widen(axes_b_.x)),
-      u_y_(widen(axes_b_.y)),
-      u_z_(widen(axes_b_.z)) {}
+      t_(widen(t)),
+      u_x_(widen(axes_b.x)),
+      u_y_(widen(axes_b.y)),
+      u_z_(widen(axes_b.z)) {}
 
 MinkowskiPoint MinkowskiDifference::support(WideVec3 direction) const {
     const WideVec3 in_b = {dot(u_x_, direction), dot(u_y_, direction), dot(u_z_, direction)};

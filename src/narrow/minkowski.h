@@ -42,16 +42,19 @@ inline bool is_same_vertex(const MinkowskiPoint& p, const MinkowskiPoint& q) {
 
 class MinkowskiDifference {
 public:
-    MinkowskiDifference(const ConvexShape& a, const ConvexShape& b, const Pose& b_in_a);
+    MinkowskiDifference(const ConvexShape& a, const ConvexShape& b, Vec3 t, const Mat3& axes_b);
+    MinkowskiDifference(const ConvexShape& a, const ConvexShape& b, const Pose& b_in_a)
+        : MinkowskiDifference(a, b, b_in_a.position, to_matrix(b_in_a.rotation)) {}
 
     // The point of D farthest along `direction`, of any length but 0.
     MinkowskiPoint support(WideVec3 direction) const;
     // From B's origin to A's: a point of D for shapes that hold their origins.
     WideVec3 center() const { return -t_; }
+    double radius_a() const { return double(a_.radius); }
+    double radius_b() const { return double(b_.radius); }
 
 private:
     ConvexShape a_, b_;
-    Mat3 axes_b_;
     WideVec3 t_, u_x_, u_y_, u_z_;  // B's origin and axes
 };
 

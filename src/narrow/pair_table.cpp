@@ -70,7 +70,10 @@ Axis box_plane(const Geometry& a, const Geometry& b, const Pose& b_in_a, NarrowP
 
 Axis box_box(const Geometry& a, const Geometry& b, const Pose& b_in_a, NarrowPhase method,
              AxisHint& hint) {
-    return find_axis_box_box(get<Box>(a), get<Box>(b), b_in_a, method, hint);
+    Axis axis;
+    find_axis_box_box(make_box_pair(get<Box>(a), get<Box>(b), b_in_a), method, everywhere, hint,
+                      axis);
+    return axis;
 }
 
 // Two half-spaces are never moved against each other.

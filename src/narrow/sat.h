@@ -16,7 +16,7 @@
 namespace cairn {
 
 struct SeparatingAxis {
-    Vec3 normal = {0, 1, 0};  // unit, from A to B
+    Three normal = {0, 1, 0, 0};  // unit, from A to B
     float separation = 0;
     AxisHint feature;  // which of the 15 it is
 };
@@ -28,8 +28,10 @@ struct AxisPreference {
 };
 AxisPreference axis_preference(const BoxPair& pair);
 
-// The best of all 15.
-SeparatingAxis find_separating_axis(const BoxPair& pair, AxisHint last);
+// The best of all 15, or the first that shows that the two are farther apart than `reach`. `last`
+// is the axis of the last step, measured, where there is one.
+SeparatingAxis find_separating_axis(const BoxPair& pair, const SeparatingAxis& last,
+                                    const AxisPreference& preference, const Reach& reach);
 
 // The best of the six face normals.
 SeparatingAxis find_separating_face(const BoxPair& pair);

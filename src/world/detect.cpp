@@ -7,7 +7,7 @@
 
 #include "contact/build_manifold.h"
 #include "contact/reuse.h"
-#include "narrow/box_pair.h"
+#include "narrow/axis_box_box.h"
 #include "narrow/find_axis.h"
 #include "shape/bounds.h"
 
@@ -85,16 +85,27 @@ bool may_touch(const WorldState& world, const Pair& pair) {
     return a != b && can_push && agree(world.bodies[a].filter, world.bodies[b].filter);
 }
 
-// How far apart two shapes may be and still touch within dt seconds, by their velocities along the
-// normal, their spins, and gravity; never less than a small share of their size.
-float speculative_distance(const WorldState& world, const ShapeRecord& a, const ShapeRecord& b,
-                           const Meeting& meeting, double dt) {
+// How far apart two shapes may be and still touch within dt seconds: by the velocities of their
+// bodies, along whichever normal, by their spins, and by gravity; never less than a small share of
+// their size.
+Reach find_reach(const WorldState& world, const ShapeRecord& a, const ShapeRecord& b,
+                 Quat rotation_a, double dt) {
     const auto h = float(dt);
-    const Vec3 normal = rotate(meeting.rotation_a, meeting.axis.normal);
     const Vec3 v = world.motions[b.body].linear_velocity - world.motions[a.body].linear_velocity;
-    const float approach = max(0, -dot(normal, v));
-    return skin_share * pair_size(a, b) + h * approach + fall_in(world, h) +
-           turning_reach(world, a, h) + turning_reach(world, b, h);
+    return {skin_share * pair_size(a, b) + fall_in(world, h) + turning_reach(world, a, h) +
+                turning_reach(world, b, h),
+            rotate_inverse(rotation_a, h * v)};
+}
+
+// The axis, or as much of it as shows that two boxes are out of reach.
+Axis find_axis_within(const Geometry& a, const Geometry& b, const Pose& b_in_a, NarrowPhase method,
+                      const Reach& reach, AxisHint& hint) {
+    const Box* box_a = std::get_if<Box>(&a);
+    const Box* box_b = std::get_if<Box>(&b);
+    if (!box_a || !box_b) return find_axis(a, b, b_in_a, method, hint);
+    Axis axis;
+    (void)find_axis_box_box(make_box_pair(*box_a, *box_b, b_in_a), method, reach, hint, axis);
+    return axis;
 }
 
 // Where the shape is, with what it may reach.
@@ -282,7 +293,7 @@ void turn_surface_velocity(const WorldState& world, Contact& contact) {
 }
 
 bool find_meeting(const WorldState& world, std::uint32_t shape_a, std::uint32_t shape_b, double dt,
-                  AxisHint& hint, Meeting& meeting) {
+                  bool exactly, AxisHint& hint, Meeting& meeting) {
     const ShapeRecord& a = world.shapes[shape_a];
     const ShapeRecord& b = world.shapes[shape_b];
     meeting.offset_a = shape_offset(world, a);
@@ -293,11 +304,13 @@ bool find_meeting(const WorldState& world, std::uint32_t shape_a, std::uint32_t 
     meeting.b_in_a = {rotate_inverse(meeting.rotation_a, between),
                       conjugate(meeting.rotation_a) * shape_rotation(world, b)};
     if (!is_finite(meeting.b_in_a.position)) return false;
-    meeting.axis = find_axis(a.def.geometry, b.def.geometry, meeting.b_in_a,
-                             world.settings.step.narrow_phase, hint);
+    const Reach reach = find_reach(world, a, b, meeting.rotation_a, dt);
+    meeting.axis =
+        find_axis_within(a.def.geometry, b.def.geometry, meeting.b_in_a,
+                         world.settings.step.narrow_phase, exactly ? everywhere : reach, hint);
     meeting.hint = hint;
     if (!is_finite(meeting.axis.normal) || !is_finite(meeting.axis.separation)) return false;
-    meeting.within = speculative_distance(world, a, b, meeting, dt);
+    meeting.within = reach.along(meeting.axis.normal);
     return true;
 }
 

@@ -29,9 +29,10 @@ void describe_contact(const WorldState& world, Contact& contact);
 void turn_surface_velocity(const WorldState& world, Contact& contact);
 
 // Along which axis two shapes meet, and how far apart they may be and still touch within dt
-// seconds. False where the numbers are beyond binary32.
+// seconds. Of shapes out of reach the axis may be any that shows it, unless `exactly`. False where
+// the numbers are beyond binary32.
 bool find_meeting(const WorldState& world, std::uint32_t shape_a, std::uint32_t shape_b, double dt,
-                  AxisHint& hint, Meeting& meeting);
+                  bool exactly, AxisHint& hint, Meeting& meeting);
 
 // Up to four world-frame points where they meet, with no impulses yet; the contact's normal is
 // renewed. Points farther apart than `max_separation` are left out. Returns their number.

@@ -102,7 +102,7 @@ std::vector<ContactReport> World::contacts() const {
         AxisHint hint = known ? known->hint : AxisHint{};
         describe_contact(world, contact);
         Meeting meeting;
-        if (!find_meeting(world, pair.a, pair.b, 0, hint, meeting)) continue;
+        if (!find_meeting(world, pair.a, pair.b, 0, true, hint, meeting)) continue;
         // A pair that exchanged an impulse is reported however far it has flown apart since.
         const bool struck = stored && carries_impulse(*stored);
         const float within = meeting.within;

@@ -90,7 +90,8 @@ void find_axis_of_pair(WorldState& world, double dt, std::uint32_t place,
     if (pair.meets || (!has_contact && may_follow && is_apart(world, pair))) return;
     Meeting& meeting = meetings.emplace_back();
     meeting.pair = place;
-    const bool is_found = find_meeting(world, pair.shape_a, pair.shape_b, dt, pair.hint, meeting);
+    const bool is_found =
+        find_meeting(world, pair.shape_a, pair.shape_b, dt, false, pair.hint, meeting);
     pair.meets = is_found && meeting.axis.separation <= meeting.within;
     if (pair.meets) return;
     if (is_found) remember_apart(world, pair, meeting.axis.separation);

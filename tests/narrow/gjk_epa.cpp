@@ -159,7 +159,7 @@ TEST_CASE("EPA parts shapes without volume at depth 0") {
     const Hull point{{{0, 0, 0}}}, segment{{{-1, 0, 0}, {1, 0, 0}}};
     const Hull square{{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}};
     const auto part = [](const Hull& a, const Hull& b) {
-        const Axis axis = find_axis_convex(convex_shape(a), convex_shape(b), {}, {0, 1, 0});
+        const Axis axis = find_axis_convex({convex_shape(a), convex_shape(b), {}}, {0, 1, 0});
         CHECK(std::abs(axis.separation) < 1e-6f);
         CHECK(double(cairn::length(axis.normal)) == Approx(1));
         return axis.normal;
@@ -175,8 +175,8 @@ TEST_CASE("C10: a cube and an octahedron above it overlap by 0.15, straight up")
     const Box cube{{0.5f, 0.5f, 0.5f}};
     const Hull octahedron{
         {{0.6f, 0, 0}, {-0.6f, 0, 0}, {0, 0.6f, 0}, {0, -0.6f, 0}, {0, 0, 0.6f}, {0, 0, -0.6f}}};
-    const Axis axis = find_axis_convex(convex_shape(cube), convex_shape(octahedron),
-                                       {{0.3f, 0.25f, 0.95f}, {}}, {0, 0, 1});
+    const Axis axis = find_axis_convex(
+        {convex_shape(cube), convex_shape(octahedron), {{0.3f, 0.25f, 0.95f}, {}}}, {0, 0, 1});
     CHECK(double(axis.separation) == Approx(-0.15).epsilon(1e-5));
     CHECK(axis.normal.z == Approx(1));
 }
@@ -193,7 +193,7 @@ TEST_CASE("C11: hulls of 8 to 12 random points, against the hull of their differ
         }
         const Pose pose = {random.vector(0.8), random.rotation()};
         const double truth = separation_by_hull(placed(a, {}), placed(b, pose));
-        const Axis axis = find_axis_convex(convex_shape(a), convex_shape(b), pose, {0, 1, 0});
+        const Axis axis = find_axis_convex({convex_shape(a), convex_shape(b), pose}, {0, 1, 0});
         if (truth < 0) {
             ++overlapping;
             worst = std::max(worst, std::abs(double(axis.separation) - truth));
@@ -215,18 +215,18 @@ TEST_CASE("C14: with a point for its core a ball is exact under GJK and EPA") {
         const Pose pose = {{random.real(-1.6, 1.6), random.real(-2.6, 2.6), random.real(-3.6, 3.6)},
                            random.rotation()};
         const Axis closed = axis_of(box, ball, pose, NarrowPhase::Sat);
-        const Axis walked = find_axis_convex(cairn::convex_shape(box), cairn::convex_shape(ball),
-                                             pose, pose.position);
+        const Axis walked = find_axis_convex(
+            {cairn::convex_shape(box), cairn::convex_shape(ball), pose}, pose.position);
         const double error = std::abs(double(closed.separation) - double(walked.separation));
         worst = std::max(worst, error);
         if (closed.separation < -ball.radius) worst_deep = std::max(worst_deep, error);
     }
     CHECK(worst < 1e-6);
     CHECK(worst_deep < 1e-6);
-    const Axis balls = find_axis_convex(cairn::convex_shape(Sphere{1}), cairn::convex_shape(ball),
-                                        {{2.5f, 0, 0}, {}}, {1, 0, 0});
+    const Axis balls = find_axis_convex(
+        {cairn::convex_shape(Sphere{1}), cairn::convex_shape(ball), {{2.5f, 0, 0}, {}}}, {1, 0, 0});
     CHECK(balls.separation == 1.0f);
-    const Axis same =
-        find_axis_convex(cairn::convex_shape(Sphere{1}), cairn::convex_shape(ball), {}, {1, 0, 0});
+    const Axis same = find_axis_convex(
+        {cairn::convex_shape(Sphere{1}), cairn::convex_shape(ball), {}}, {1, 0, 0});
     CHECK(same.separation == -1.5f);
 }

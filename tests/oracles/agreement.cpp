@@ -59,7 +59,7 @@ Axis by_gjk_epa(const Geometry& a, const Geometry& b, const Pose& pose) {
         const auto* ball = std::get_if<Sphere>(&g);
         return ball ? convex_shape(*ball) : convex_shape(std::get<Box>(g));
     };
-    return find_axis_convex(convex(a), convex(b), pose, {0, 1, 0});
+    return find_axis_convex({convex(a), convex(b), pose}, {0, 1, 0});
 }
 
 struct Score {
