@@ -16,7 +16,8 @@ struct Axis {
     float separation = 0;     // signed metres along it, negative where the shapes overlap
     Vec3 point_a;             // the closest (or deepest) point of A, relative to A's origin
     Vec3 point_b;             // of B, relative to B's origin, still along A's axes
-    // Of two boxes: whether the normal is exactly that of the face or edge pair that the hint names.
+    // Of two boxes: whether the normal is exactly that of the face or edge pair that the hint
+    // names.
     bool on_hint = false;
 };
 
