@@ -98,7 +98,7 @@ bool find_axis_box_box(const BoxPair& pair, NarrowPhase method, const Reach& rea
         if (const std::optional<Axis> found = axis_along(pair, best, yielding)) {
             hint = best.feature;
             axis = *found;
-            return true;
+            return axis.separation <= reach.along(axis.normal);
         }
         toward_b = vec3(best.normal);
     }

@@ -1,6 +1,6 @@
 // The separating axis test for two boxes; see sat.h.
 //
-// Symbols: c_ij = component i of B's axis j, seen along A's axes; For A's face i the boxes reach
+// Symbols: c_ij = component i of B's axis j, seen along A's axes. For A's face i the boxes reach
 // h_a[i] and sum_j |c_ij| h_b[j]; for B's face j the other way round. The edge axis n = e_i x u_j
 // has the components -c_2j along i1 and c_1j along i2, where i, i1, i2 are in turn; it sees of B's
 // axis u_k the cofactor n . u_k = c_1j c_2k - c_2j c_1k.

@@ -4,6 +4,8 @@
 
 #include <doctest/doctest.h>
 
+#include <limits>
+
 #include "../narrow/judge.h"
 #include "contact/build_manifold.h"
 
@@ -90,6 +92,19 @@ TEST_CASE("what moves toward the other shape is near from farther off, what move
             Manifold manifold;
             const Reach reach = {0.01f, {5, -fall, 0}};
             CHECK(collide(cube, cube, above, method, reach, hint, axis, manifold) == (fall > 0.2f));
+        }
+    }
+}
+
+TEST_CASE("boxes whose place is no number touch nowhere") {
+    const Box cube{{0.5f, 0.5f, 0.5f}};
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    for (const NarrowPhase method : all_methods) {
+        for (const Pose& pose : {Pose{{0, nan, 0}, {}}, Pose{{0, 0.9f, 0}, {nan, 0, 0, 1}}}) {
+            AxisHint hint;
+            Axis axis;
+            Manifold manifold;
+            CHECK_FALSE(collide(cube, cube, pose, method, {0.1f, {}}, hint, axis, manifold));
         }
     }
 }
