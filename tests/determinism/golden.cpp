@@ -108,6 +108,7 @@ TEST_CASE("one contact at a time or sixteen side by side, the bits are the same"
                 if (method.solver != Solver::SoftStep) continue;
                 if (method.narrow_phase != NarrowPhase::Sat) continue;
                 const std::string line = run_golden_scene(scene, method, width);
+                CAPTURE(line);
                 CHECK(std::find(golden.begin(), golden.end(), line) != golden.end());
             }
         }
