@@ -5,6 +5,7 @@
 // as eight bytes, the lowest first; so two runs that part and meet again differ.
 
 #include <cstdint>
+#include <span>
 #include <string>
 
 #include "determinism/golden_scenes.h"
@@ -18,14 +19,16 @@ struct GoldenMethod {
 };
 
 // Every solver by every narrow phase.
-inline constexpr GoldenMethod golden_methods[] = {
+inline constexpr GoldenMethod all_golden_methods[] = {
     {Solver::SequentialImpulse, NarrowPhase::Sat, "sequential-impulse sat"},
     {Solver::SequentialImpulse, NarrowPhase::GjkEpa, "sequential-impulse gjk-epa"},
     {Solver::SoftStep, NarrowPhase::Sat, "soft-step sat"},
-    {Solver::SoftStep, NarrowPhase::GjkEpa, "soft-step gjk-epa"},
     {Solver::Xpbd, NarrowPhase::Sat, "xpbd sat"},
+    {Solver::SoftStep, NarrowPhase::GjkEpa, "soft-step gjk-epa"},
     {Solver::Xpbd, NarrowPhase::GjkEpa, "xpbd gjk-epa"},
 };
+// Every solver and every narrow phase: what the golden scenes run, so that an emulator can follow.
+inline constexpr std::span<const GoldenMethod> golden_methods{all_golden_methods, 4};
 
 class RunHash {
 public:

@@ -30,13 +30,10 @@ void print_widths() {
     std::printf("\n");
 }
 
-// Calls visit(lanes) for each width at which the method is to be run; 0 stands for any. The rows do
-// not know which narrow phase found them, so one is enough.
+// Calls visit(lanes) for each way to run the method that may not make a difference.
 template <class Visit>
 void visit_widths(const GoldenMethod& method, Visit visit) {
-    if (method.solver != Solver::SoftStep || method.narrow_phase != NarrowPhase::Sat) {
-        return visit(0);
-    }
+    if (method.solver != Solver::SoftStep) return visit(0);
     for (const int width : all_lane_widths) {
         if (has_lane_width(width)) visit(width);
     }
