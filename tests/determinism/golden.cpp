@@ -53,7 +53,7 @@ std::vector<std::string> compute_lines() {
     std::vector<std::string> lines;
     for (const GoldenScene& scene : golden_scenes()) {
         for (const GoldenMethod& method : golden_methods) {
-            lines.push_back(run_golden_scene(scene, method, 0));
+            lines.push_back(run_golden_scene(scene, method));
         }
     }
     for (const scene::Builtin& builtin : scene::builtins()) {
@@ -95,18 +95,19 @@ TEST_CASE("every golden scene gives the same bits on every compiler and at every
     for (std::size_t i = 0; i < found.size(); ++i) CHECK(found[i] == expected[i]);
 }
 
-TEST_CASE("one contact at a time or sixteen side by side, the bits are the same") {
+TEST_CASE("side by side or one at a time, on one thread or on eight, the bits are the same") {
     const std::vector<std::string> golden = read_golden();
-    for (const int width : all_lane_widths) {
-        if (!has_lane_width(width)) {
-            MESSAGE("skipped: this processor has no " << width << " lanes");
+    for (const GoldenWay& way : golden_ways) {
+        if (!has_lane_width(way.lanes)) {
+            MESSAGE("skipped: this processor has no " << way.lanes << " lanes");
             continue;
         }
-        CAPTURE(width);
+        CAPTURE(way.lanes);
+        CAPTURE(way.threads);
         for (const GoldenScene& scene : golden_scenes()) {
             for (const GoldenMethod& method : golden_methods) {
                 if (method.solver != Solver::SoftStep) continue;
-                const std::string line = run_golden_scene(scene, method, width);
+                const std::string line = run_golden_scene(scene, method, way);
                 CAPTURE(line);
                 CHECK(std::find(golden.begin(), golden.end(), line) != golden.end());
             }
@@ -114,22 +115,27 @@ TEST_CASE("one contact at a time or sixteen side by side, the bits are the same"
     }
 }
 
-TEST_CASE(
-    "five hundred contacts and more are solved at once in the scene that is to fill all lanes") {
+TEST_CASE("a thousand contacts push at once in the scene that is to fill all lanes and threads") {
     for (const GoldenScene& scene : golden_scenes()) {
         if (std::string(scene.name) != "crowd") continue;
-        World world = make_golden_world(scene, golden_methods[2], 0);
+        World world = make_golden_world(scene, golden_methods[2]);
+        int shared_runs = 0;
+        const RunJobs run = [](void* count, int jobs, Job job, void* context) {
+            ++*static_cast<int*>(count);
+            for (int i = 0; i < jobs; ++i) job(context, i);
+        };
+        REQUIRE(world.set_threads({.count = 2, .run = run, .host_context = &shared_runs}).ok());
         for (int step = 0; step < scene.steps; ++step) {
             take_golden_step(scene, world, step);
             std::size_t pushing = 0;
             for (const ContactReport& contact : world.contacts()) {
                 float push = 0;
-                for (int i = 0; i < contact.point_count; ++i)
-                    push += contact.points[i].normal_impulse;
+                for (const ContactPointReport& point : contact.points) push += point.normal_impulse;
                 if (push > 0) ++pushing;
             }
-            CHECK(pushing > 500);
+            CHECK(pushing > 1000);
         }
+        CHECK(shared_runs > 0);
     }
 }
 
@@ -139,7 +145,7 @@ TEST_CASE("a heap 1e7 metres away is the heap at the origin: it falls, meets and
         CAPTURE(scene.name);
         for (const GoldenMethod& method : golden_methods) {
             CAPTURE(method.name);
-            World world = make_golden_world(scene, method, 0);
+            World world = make_golden_world(scene, method);
             for (int step = 0; step < scene.steps; ++step) take_golden_step(scene, world, step);
             const Position ground = world.position(world.bodies()[0]);
             for (const BodyId body : world.bodies()) {

@@ -15,15 +15,17 @@ void RunHash::add(const World& world) {
     }
 }
 
-World make_golden_world(const GoldenScene& scene, const GoldenMethod& method, int lanes) {
+World make_golden_world(const GoldenScene& scene, const GoldenMethod& method,
+                        const GoldenWay& way) {
     const StepSettings settings = {
-        .solver = method.solver, .narrow_phase = method.narrow_phase, .lanes = lanes};
+        .solver = method.solver, .narrow_phase = method.narrow_phase, .lanes = way.lanes};
     World world = World::create({.step = settings}).value();
     world.set_error_handler([name = scene.name](const Error& error) {
         std::fprintf(stderr, "golden scene %s: a call was refused: %s\n", name,
                      error.message.c_str());
         std::exit(1);
     });
+    (void)world.set_threads({.count = way.threads});
     scene.build(world);
     return world;
 }
@@ -41,8 +43,9 @@ std::string golden_line(const std::string& scene, const std::string& method, int
     return line;
 }
 
-std::string run_golden_scene(const GoldenScene& scene, const GoldenMethod& method, int lanes) {
-    World world = make_golden_world(scene, method, lanes);
+std::string run_golden_scene(const GoldenScene& scene, const GoldenMethod& method,
+                             const GoldenWay& way) {
+    World world = make_golden_world(scene, method, way);
     RunHash hash;
     for (int step = 0; step < scene.steps; ++step) {
         take_golden_step(scene, world, step);

@@ -30,6 +30,15 @@ inline constexpr GoldenMethod all_golden_methods[] = {
 // Every solver and every narrow phase: what the golden scenes run, so that an emulator can follow.
 inline constexpr std::span<const GoldenMethod> golden_methods{all_golden_methods, 4};
 
+// What may be told to a run and may not be seen in it.
+struct GoldenWay {
+    int lanes = 0;  // step.lanes; 0: as many as there are
+    int threads = 1;
+};
+
+// Each width and each number of threads at least once.
+inline constexpr GoldenWay golden_ways[] = {{1, 1}, {4, 2}, {8, 3}, {16, 4}, {0, 8}};
+
 class RunHash {
 public:
     // Once a step.
@@ -42,13 +51,15 @@ private:
 
 // A world of the scene before its first step. A call of the scene's that is refused, then or later,
 // ends the program with a word: it would make the hashes say less than they seem to.
-World make_golden_world(const GoldenScene& scene, const GoldenMethod& method, int lanes);
+World make_golden_world(const GoldenScene& scene, const GoldenMethod& method,
+                        const GoldenWay& way = {});
 // The user's part, then the step.
 void take_golden_step(const GoldenScene& scene, World& world, int step);
 // "scene solver narrow-phase steps hash".
 std::string golden_line(const std::string& scene, const std::string& method, int steps,
                         std::uint64_t hash);
-// A whole run. lanes is step.lanes: 0 for as many as there are.
-std::string run_golden_scene(const GoldenScene& scene, const GoldenMethod& method, int lanes);
+// A whole run.
+std::string run_golden_scene(const GoldenScene& scene, const GoldenMethod& method,
+                             const GoldenWay& way = {});
 
 }  // namespace cairn::test

@@ -201,7 +201,7 @@ void add_crowd(World& world, const Position& place, int base) {
     }
 }
 
-void build_crowd(World& world) { add_crowd(world, origin, 8); }
+void build_crowd(World& world) { add_crowd(world, origin, 10); }
 void build_crowd_far_7(World& world) { add_crowd(world, far_7, 4); }
 
 // Columns whose loads pass through many contacts, up to a top 400 times as dense.
@@ -285,7 +285,7 @@ void build_drifting(World& world) {
 }
 
 // A heap in the hands of a user who exchanges the solver, the narrow phase, the broad phase, the
-// numbers of substeps and iterations, and the length of the step.
+// numbers of substeps and iterations, the reuse of contacts, and the length of the step.
 
 void build_exchange(World& world) { add_heap(world, far_5, 14); }
 
@@ -299,6 +299,7 @@ void exchange_methods(World& world, int step) {
     of_step.narrow_phase =
         of_step.narrow_phase == NarrowPhase::Sat ? NarrowPhase::GjkEpa : NarrowPhase::Sat;
     of_step.broad_phase = round % 2 == 0 ? BroadPhase::BruteForce : BroadPhase::Tree;
+    of_step.reuse_contacts = round % 4 != 1;
     of_step.substeps = round % 3 == 1 ? 7 : 0;
     of_step.iterations = round % 4 == 2 ? 3 : 0;
     of_step.contact_compliance = round % 3 == 0 ? 1e-6f : 0;

@@ -3,10 +3,7 @@
 
 namespace cairn::test {
 
-// Every width that the library was written for.
-inline constexpr int all_lane_widths[] = {1, 4, 8, 16};
-
-// Whether step.lanes = width is met to the full here.
+// Whether step.lanes = width is met to the full here; so is 0, which names no width.
 bool has_lane_width(int width);
 
 }  // namespace cairn::test

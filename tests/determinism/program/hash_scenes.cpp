@@ -1,12 +1,10 @@
 // The hashes of the golden scenes, as golden_hashes.txt has them: for builds of the library that
 // can have nothing beside it, on machines where the tests' own libraries are not.
 //
-//   hash_scenes               a line a scene and method; "#" before what is not compared. The soft
-//   step
-//                             is run at every width, and one that differs adds its own line
-//   hash_scenes SCENE         the state hash after each step of that scene, by each method and
-//   width:
-//                             what two builds print parts where their bits do
+//   hash_scenes         a line a scene and method; "#" before what is not compared. The soft step
+//                       is run at every width and on 1 to 8 threads; a run that differs has a line
+//   hash_scenes SCENE   the state hash after each step of that scene, by each method and way: the
+//                       first line in which two builds differ says when they part
 //
 // check_hashes.sh compares what it prints with the file.
 
@@ -22,20 +20,23 @@ namespace {
 using namespace cairn;
 using namespace cairn::test;
 
-void print_widths() {
-    std::printf("# lanes:");
-    for (const int width : all_lane_widths) {
-        std::printf(has_lane_width(width) ? " %d" : " (%d: not here)", width);
+void print_ways() {
+    std::printf("# lanes x threads:");
+    for (const GoldenWay& way : golden_ways) {
+        const char* here = has_lane_width(way.lanes) ? "" : " (not here)";
+        if (way.lanes == 0) std::printf(" all x %d", way.threads);
+        if (way.lanes != 0) std::printf(" %d x %d%s,", way.lanes, way.threads, here);
     }
     std::printf("\n");
 }
 
-// Calls visit(lanes) for each way to run the method that may not make a difference.
+// Calls visit(way) for each way to run the method that may not make a difference. Lanes are the
+// soft step's alone, and threads are of no one solver: the others run once.
 template <class Visit>
-void visit_widths(const GoldenMethod& method, Visit visit) {
-    if (method.solver != Solver::SoftStep) return visit(0);
-    for (const int width : all_lane_widths) {
-        if (has_lane_width(width)) visit(width);
+void visit_ways(const GoldenMethod& method, Visit visit) {
+    if (method.solver != Solver::SoftStep) return visit(GoldenWay{.threads = 3});
+    for (const GoldenWay& way : golden_ways) {
+        if (has_lane_width(way.lanes)) visit(way);
     }
 }
 
@@ -43,10 +44,11 @@ void print_hashes() {
     for (const GoldenScene& scene : golden_scenes()) {
         for (const GoldenMethod& method : golden_methods) {
             std::string first;
-            visit_widths(method, [&](int lanes) {
-                const std::string line = run_golden_scene(scene, method, lanes);
+            visit_ways(method, [&](const GoldenWay& way) {
+                const std::string line = run_golden_scene(scene, method, way);
                 if (first.empty()) std::printf("%s\n", (first = line).c_str());
-                if (line != first) std::printf("%s at %d lanes\n", line.c_str(), lanes);
+                if (line == first) return;
+                std::printf("%s by %d lanes, %d threads\n", line.c_str(), way.lanes, way.threads);
             });
         }
     }
@@ -54,12 +56,12 @@ void print_hashes() {
 
 void print_steps(const GoldenScene& scene) {
     for (const GoldenMethod& method : golden_methods) {
-        visit_widths(method, [&](int lanes) {
-            World world = make_golden_world(scene, method, lanes);
+        visit_ways(method, [&](const GoldenWay& way) {
+            World world = make_golden_world(scene, method, way);
             for (int step = 0; step < scene.steps; ++step) {
                 take_golden_step(scene, world, step);
-                std::printf("%s %s, lanes %d, step %d: %016" PRIx64 "\n", scene.name, method.name,
-                            lanes, step + 1, world.state_hash());
+                std::printf("%s %s, lanes %d, threads %d, step %d: %016" PRIx64 "\n", scene.name,
+                            method.name, way.lanes, way.threads, step + 1, world.state_hash());
             }
         });
     }
@@ -69,7 +71,7 @@ void print_steps(const GoldenScene& scene) {
 
 int main(int count, char** arguments) {
     if (count < 2) {
-        print_widths();
+        print_ways();
         print_hashes();
         return 0;
     }
