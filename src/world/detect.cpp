@@ -132,23 +132,6 @@ constexpr int shapes_a_block = 64;
 constexpr int bodies_a_block = 128;
 constexpr int searches_a_block = 16;
 
-void update_way(WorldState& world, std::uint32_t body, float h, float fall) {
-    BodyWay& way = world.ways[body];
-    const BodyPlace place = place_of(world, body);
-    const BodyMotion& motion = world.motions[body];
-    const Vec3 moved = place.position - way.place.position;
-    if (moved != Vec3{}) way.gone += double(length(moved));
-    if (place.rotation != way.place.rotation) {
-        // A turn moves a point by the chord over its arm.
-        way.gone +=
-            2.0 * double(length(half_turn(place.rotation, way.place.rotation))) * double(way.reach);
-    }
-    way.place = place;
-    way.horizon = way.gone + double(h * length(motion.linear_velocity) + fall);
-    if (motion.angular_velocity != Vec3{})
-        way.horizon += double(min(h * length(motion.angular_velocity), 2.0f) * way.reach);
-}
-
 // The box with room for some steps more.
 Aabb fatten(const WorldState& world, const Proxy& proxy, float dt) {
     if (!proxy.moves) return proxy.box;
@@ -239,6 +222,23 @@ void find_tree_pairs(WorldState& world, Team& team, double dt, std::span<const P
         const Proxy& b = proxies[places[pair.b]];
         if (overlaps(a.box, b.box) && may_touch(world, pair)) pairs.push_back(pair);
     }
+}
+
+void update_way(WorldState& world, std::uint32_t body, float h, float fall) {
+    BodyWay& way = world.ways[body];
+    const BodyPlace place = place_of(world, body);
+    const BodyMotion& motion = world.motions[body];
+    const Vec3 moved = place.position - way.place.position;
+    if (moved != Vec3{}) way.gone += double(length(moved));
+    if (place.rotation != way.place.rotation) {
+        // A turn moves a point by the chord over its arm.
+        way.gone +=
+            2.0 * double(length(half_turn(place.rotation, way.place.rotation))) * double(way.reach);
+    }
+    way.place = place;
+    way.horizon = way.gone + double(h * length(motion.linear_velocity) + fall);
+    if (motion.angular_velocity != Vec3{})
+        way.horizon += double(min(h * length(motion.angular_velocity), 2.0f) * way.reach);
 }
 
 void update_ways(WorldState& world, Team& team, double dt) {

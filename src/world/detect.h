@@ -16,7 +16,9 @@ void find_all_pairs(const WorldState& world, BruteForce& broad, std::span<const 
 void find_tree_pairs(WorldState& world, Team& team, double dt, std::span<const Proxy> proxies,
                      std::vector<Pair>& pairs);
 
-// How far each moving body has gone since it was there, and may go in this step.
+// How far a body has gone since it was last seen, and may go in h seconds, falling by `fall`; and
+// all that move in this step. One that will not move any more is seen once more when it stops.
+void update_way(WorldState& world, std::uint32_t body, float h, float fall);
 void update_ways(WorldState& world, Team& team, double dt);
 // Whether a pair that was apart cannot have come within reach since, nor come there in this step.
 bool is_apart(const WorldState& world, const PairRecord& pair);

@@ -47,6 +47,7 @@ void freeze(WorldState& world, std::uint32_t slot, Quantity quantity) {
     world.inertias[slot] = {};
     world.motions[slot].linear_velocity = {};
     world.motions[slot].angular_velocity = {};
+    update_way(world, slot, 0, 0);
     world.non_finite.push_back(
         {body_id(world, slot), world.report.step, world.report.time, quantity});
 }

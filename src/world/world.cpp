@@ -436,6 +436,7 @@ Status World::set_kind(BodyId id, BodyKind kind) {
         world.motions[id.index].angular_velocity = {};
     }
     assign_mass(world, id.index, *mass);
+    update_way(world, id.index, 0, 0);
     return Done{};
 }
 

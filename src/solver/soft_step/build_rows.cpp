@@ -3,6 +3,8 @@
 #include "solver/soft_step/build_rows.h"
 
 #include <algorithm>
+#include <cassert>
+#include <utility>
 
 namespace cairn {
 
@@ -351,9 +353,26 @@ void SoftRows::give_places(const StepProblem& problem, int width) {
     }
 }
 
+// Whether no two rows of a colour push the same body.
+bool SoftRows::keeps_bodies_apart(std::size_t body_count) const {
+    std::vector<std::size_t> last_colour(body_count, colours_.count());
+    const auto push = [&](std::uint32_t body, std::size_t colour) {
+        return std::exchange(last_colour[body], colour) != colour;
+    };
+    for (std::size_t c = 0; c < colours_.count(); ++c) {
+        for (const std::uint32_t k : colours_[c]) {
+            const Colouring::Edge& edge = edges_[k];
+            if (edge.pushes_a && !push(edge.body_a, c)) return false;
+            if (edge.pushes_b && !push(edge.body_b, c)) return false;
+        }
+    }
+    return true;
+}
+
 void SoftRows::build(const StepProblem& problem, std::span<const Response> responses, float h,
                      float part, int width) {
     colouring_.colour(edges_, problem.motions.size(), colours_);
+    assert(keeps_bodies_apart(problem.motions.size()));
     give_places(problem, width);
     // In the order of the rows, so that what is written lies together.
     problem.for_range(colours_.order.size(), contacts_a_block, [&](int begin, int end) {

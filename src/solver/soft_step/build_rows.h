@@ -55,6 +55,7 @@ public:
     std::span<const Place> places() const { return places_; }
 
 private:
+    bool keeps_bodies_apart(std::size_t body_count) const;
     void give_places(const StepProblem& problem, int width);
     Place take_lane(RowKind kind, std::size_t colour_begin, std::uint32_t nobody);
     void fill(const StepProblem& problem, std::span<const Response> responses, float h, float part,
