@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -93,6 +94,7 @@ struct Case {
     void (*run)(const Setup& setup, Sheet& sheet) = nullptr;
     bool quick = false;  // belongs to the subset for every working day
     std::vector<double> steps = {1.0 / 60, 1.0 / 240};
+    std::optional<Solver> only = {};  // asked of this solver alone
     std::vector<KnownUnmet> known_unmet = {};
 };
 

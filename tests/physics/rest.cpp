@@ -1,4 +1,5 @@
-// Cases D25, F04, F05 and F21: what stands, stands still, and what overlaps comes apart in peace.
+// Cases D25, F04, F05, F21 and F22: what stands, stands still, and what overlaps comes apart in
+// peace.
 //
 // Bounds of penetration at rest: sequential impulses leave the slop of their positional correction,
 // 0.05% of the smaller shape's smallest half extent; one XPBD iteration a substep leaves (mass
@@ -134,6 +135,48 @@ void part_overlapping(const Setup& setup, Sheet& sheet) {
     sheet.bound("overlap at last, m", World::penetration(world.contacts()).deepest, 0.01);
 }
 
+// 20 s of cubes of half a metre, or of a metre, on ground and each other; then how still they are
+// and how deep in each other.
+void settle(const Setup& setup, Sheet& sheet, const std::string& what, double size,
+            const std::vector<Vec>& centers) {
+    World world = make_world(setup);
+    add_ground(world, Ground::Box, rough(0.6));
+    std::vector<BodyId> cubes;
+    for (const Vec& at : centers) {
+        BodyDef def;
+        def.shapes = {block({size, size, size}, rough(0.6))};
+        def.position = to_position(at);
+        cubes.push_back(add(world, def));
+    }
+    run(world, setup, 20);
+    double fastest = 0;
+    for (const BodyId cube : cubes) fastest = std::max(fastest, speed_of(world, cube));
+    const Penetration overlap = World::penetration(world.contacts());
+    sheet.bound(what + ", fastest after 20 s, m/s", fastest, 0.02);
+    sheet.bound(what + ", mean penetration, m", overlap.mean, 0.002);
+    sheet.bound(what + ", deepest penetration, m", overlap.deepest, 0.01);
+}
+
+void settle_piles(const Setup& setup, Sheet& sheet) {
+    std::vector<Vec> pyramid;
+    for (int k = 0; k < 20; ++k) {
+        for (int i = 0; i < 20 - k; ++i)
+            pyramid.push_back({1.01 * (i - 0.5 * (19 - k)), 0, 0.5 + k});
+    }
+    settle(setup, sheet, "a pyramid of 210", 1, pyramid);
+    std::vector<Vec> heap;
+    Random random(22);
+    for (int k = 0; k < 5; ++k) {
+        for (int i = 0; i < 10; ++i) {
+            for (int j = 0; j < 10; ++j) {
+                const Vec jitter = random.in_cube(0.05);
+                heap.push_back(Vec{0.7 * (i - 4.5), 0.7 * (j - 4.5), 0.5 + 0.7 * k} + jitter);
+            }
+        }
+    }
+    settle(setup, sheet, "a heap of 500", 0.5, heap);
+}
+
 }  // namespace
 
 std::vector<Case> rest_cases() {
@@ -154,6 +197,7 @@ std::vector<Case> rest_cases() {
          .subject = Subject::Piling,
          .run = part_overlapping,
          .quick = true},
+        {.id = "F22", .title = "piles at rest", .run = settle_piles, .only = Solver::SoftStep},
     };
 }
 

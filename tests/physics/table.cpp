@@ -192,6 +192,7 @@ std::vector<Run> plan_runs(const std::vector<Case>& cases, const Selection& sele
                 for (const double dt : subject.steps) {
                     Run run{&subject, {solver, narrow, dt, selection.verbose}, 0, {}};
                     if (selection.solver && moves && *selection.solver != solver) continue;
+                    if (subject.only && *subject.only != solver) continue;
                     // Asked for by name, a narrow phase goes for every case.
                     const NarrowPhase only = selection.narrow_phase.value_or(NarrowPhase::Sat);
                     if ((selection.narrow_phase || !both) && narrow != only) continue;
