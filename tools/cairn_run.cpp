@@ -122,6 +122,17 @@ const char* quantity_words(Quantity quantity) {
     return "";
 }
 
+// "find-pairs 0.11, find-axes 0.02, ... ms": the mean of all steps but the first.
+std::string describe_stages(const RunRecord& record) {
+    const auto steps = static_cast<double>(record.step_ms.size() - 1);
+    std::string text;
+    for (std::size_t i = 0; i < stage_count; ++i) {
+        text += fmt::format("{}{} {:.2g}", i == 0 ? "" : ", ", stage_name(static_cast<Stage>(i)),
+                            record.stage_ms[i] / steps);
+    }
+    return text + " ms";
+}
+
 void print_summary(std::FILE* out, const BuiltWorld& built, const RunPlan& plan,
                    const RunRecord& record) {
     const World& world = built.world;
@@ -139,9 +150,11 @@ void print_summary(std::FILE* out, const BuiltWorld& built, const RunPlan& plan,
     fmt::print(out, "  simulated    {:.4g} s in {} steps\n", simulated, record.step_ms.size());
     fmt::print(out, "  bodies       {}\n", built.names.size());
     fmt::print(out, "  contacts     {} pairs, {} points\n", contacts.size(), point_count);
-    fmt::print(out,
-               "  a step       {:.3g} ms (median {:.3g}, 95% {:.3g}, longest {:.3g}), one thread\n",
-               times.mean, times.p50, times.p95, times.max);
+    fmt::print(
+        out, "  a step       {:.3g} ms (median {:.3g}, 95% {:.3g}, longest {:.3g}), {} thread{}\n",
+        times.mean, times.p50, times.p95, times.max,
+        plan.threads == 1 ? "one" : std::to_string(plan.threads), plan.threads == 1 ? "" : "s");
+    if (record.step_ms.size() > 1) fmt::print(out, "  stages       {}\n", describe_stages(record));
     fmt::print(out, "  energy       {:.6g} J (at the start {:.6g} J)\n", world.energy().total,
                record.first_energy);
     fmt::print(out, "  penetration  {:.3g} mm at the deepest, {:.3g} mm on average\n",
