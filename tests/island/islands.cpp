@@ -100,6 +100,7 @@ void check_against(const Islands& islands, const Reference& reference) {
         std::set<std::uint32_t> roots;
         for (const std::uint32_t body : bodies) roots.insert(root.at(body));
         if (!islands.may_have_parted(i)) CHECK(roots.size() == 1);
+        if (bodies.size() == 1) CHECK(!islands.may_have_parted(i));
     }
     CHECK(count == reference.bodies.size());
 }
@@ -231,4 +232,20 @@ TEST_CASE(
     CHECK(islands.body_count(islands.island_of(0)) == 100000);
     // Vectors that grow may have twice the room that they use.
     CHECK(islands.byte_count() < 2 * (100000 * (44 + 2 * 16 + 4)) + 2 * 200000 * 4);
+}
+
+TEST_CASE("an island that has come apart is still known to when a larger one takes it in") {
+    Islands islands;
+    std::vector<std::uint32_t> links;
+    for (std::uint32_t body = 0; body < 12; ++body) islands.add_body(body);
+    for (std::uint32_t body = 0; body < 11; ++body)
+        links.push_back(body == 3 ? none : islands.add_link(body, body + 1));
+    islands.remove_link(links[1]);
+    islands.add_link(0, 11);
+    const std::uint32_t island = islands.island_of(0);
+    CHECK(islands.body_count(island) == 12);
+    std::vector<std::uint32_t> parts;
+    islands.split(island, parts);
+    CHECK(parts.size() == 2);
+    CHECK(islands.body_count(islands.island_of(2)) == 2);
 }
