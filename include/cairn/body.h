@@ -59,6 +59,8 @@ struct BodyDef {
     Vec3 force = {};            ///< N, world, at the center of mass, in every step
     Vec3 torque = {};           ///< N m, world, in every step
     LockedAxes lock = {};
+    /// Whether it may fall asleep; what touches it does so only with it.
+    bool can_sleep = true;
     CollisionFilter collision = {};
 };
 
@@ -70,6 +72,8 @@ struct BodyState {
     Vec3 linear_velocity = {};  ///< of the center of mass
     Vec3 angular_velocity = {};
     BodyKind kind = BodyKind::Static;
+    /// Left out of the step, its velocities zero, until something touches or changes it. Never
+    /// true for static and kinematic bodies.
     bool asleep = false;
     /// True once the body's numbers went wrong: it stands still at its last good state, see
     /// StepReport.

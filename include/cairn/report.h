@@ -77,10 +77,12 @@ const char* stage_name(Stage stage);
 struct StepReport {
     std::uint64_t step = 0;         ///< how many steps the world has taken
     double time = 0;                ///< s since the world began
-    std::size_t pair_count = 0;     ///< pairs whose boxes overlap
+    std::size_t pair_count = 0;     ///< pairs whose boxes overlap, of which one is awake
     std::size_t contact_count = 0;  ///< contact points of the step
     /// Pairs whose points were carried along from an earlier step, StepSettings::reuse_contacts.
     std::size_t reused_count = 0;
+    std::size_t awake_count = 0;   ///< dynamic bodies that are not asleep, at its end
+    std::size_t asleep_count = 0;  ///< and those that are
     /// Wall time; no part of the world's state.
     std::array<double, stage_count> stage_seconds = {};
 };

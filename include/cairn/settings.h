@@ -52,6 +52,12 @@ int default_iterations(Solver solver);
 struct WorldSettings {
     Vec3 gravity = {0, -9.81f, 0};       ///< m/s^2
     float restitution_threshold = 1.0f;  ///< m/s, >= 0: slower impacts do not bounce
+    /// Whether bodies that stand still, and all that touches them, are left out of the step until
+    /// something comes near or is changed.
+    bool sleeping = true;
+    /// s, > 0: how long bodies must have stood still before they sleep. What still moves by a
+    /// thousandth of its size a second, or gathers speed, never does.
+    float sleep_time = 0.5f;
     StepSettings step = {};
     friend constexpr bool operator==(const WorldSettings&, const WorldSettings&) = default;
 };

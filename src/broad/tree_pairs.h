@@ -36,6 +36,10 @@ public:
     // Nothing is done for an id that is not there, here and below.
     void remove(std::uint32_t id);
     void set_moves(std::uint32_t id, bool moves);
+    // Has the pairs of an id told anew, as if its box were new.
+    void look_up(std::uint32_t id) {
+        if (is_there(id)) mark(id);
+    }
     // False and nothing done while the stored box holds `tight` (or `fat` is not valid); else
     // stores `fat`, marks the id as escaped, true.
     bool update(std::uint32_t id, const Aabb& tight, const Aabb& fat);

@@ -13,6 +13,7 @@ std::uint64_t key_of(const PairRecord& pair) { return pair_key(pair.shape_a, pai
 }  // namespace
 
 void ContactStore::begin_renewal() {
+    list_returned();
     previous_.swap(pairs_);
     pairs_.clear();
     ended_.clear();
@@ -34,19 +35,46 @@ void ContactStore::renew(std::uint32_t shape_a, std::uint32_t shape_b) {
     }
 }
 
+void ContactStore::take_back(std::uint32_t slot) {
+    if (listings_[slot] != Listing::Aside) return;
+    listings_[slot] = Listing::Returning;
+    returning_.push_back(slot);
+}
+
+void ContactStore::list_returned() {
+    if (returning_.empty()) return;
+    std::sort(returning_.begin(), returning_.end(),
+              [&](std::uint32_t a, std::uint32_t b) { return slots_[a].key < slots_[b].key; });
+    previous_.swap(pairs_);
+    pairs_.clear();
+    std::size_t place = 0;
+    for (const std::uint32_t slot : returning_) {
+        for (; place < previous_.size() && key_of(previous_[place]) < slots_[slot].key; ++place)
+            pairs_.push_back(previous_[place]);
+        pairs_.push_back(asides_[slot]);
+        listings_[slot] = Listing::Listed;
+    }
+    pairs_.insert(pairs_.end(), previous_.begin() + std::ptrdiff_t(place), previous_.end());
+    returning_.clear();
+}
+
 const PairRecord* ContactStore::find_pair(std::uint32_t shape_a, std::uint32_t shape_b) const {
     const std::uint64_t key = pair_key(shape_a, shape_b);
     const auto found = std::lower_bound(
         pairs_.begin(), pairs_.end(), key,
         [](const PairRecord& pair, std::uint64_t wanted) { return key_of(pair) < wanted; });
-    return found != pairs_.end() && key_of(*found) == key ? &*found : nullptr;
+    if (found != pairs_.end() && key_of(*found) == key) return &*found;
+    const std::uint32_t slot = table_.find(key);
+    return slot != none && is_aside(slot) ? &asides_[slot] : nullptr;
 }
 
-Contact& ContactStore::add_contact(PairRecord& pair) {
+Contact& ContactStore::add_contact(PairRecord& pair, std::uint32_t body_a, std::uint32_t body_b) {
     if (free_.empty()) {
         free_.push_back(std::uint32_t(slots_.size()));
         slots_.emplace_back();
         sightings_.emplace_back();
+        listings_.push_back(Listing::Listed);
+        asides_.emplace_back();
     }
     pair.contact = free_.back();
     free_.pop_back();
@@ -56,12 +84,16 @@ Contact& ContactStore::add_contact(PairRecord& pair) {
     contact.key = key_of(pair);
     contact.shape_a = pair.shape_a;
     contact.shape_b = pair.shape_b;
+    contact.body_a = body_a;
+    contact.body_b = body_b;
+    by_body_.attach(pair.contact, body_a, body_b);
     table_.insert(contact.key, pair.contact);
     return contact;
 }
 
 void ContactStore::remove_contact(PairRecord& pair) {
     table_.remove(key_of(pair));
+    by_body_.detach(pair.contact);
     free_.push_back(pair.contact);
     pair.contact = none;
     pair.meets = false;

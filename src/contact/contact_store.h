@@ -2,6 +2,9 @@
 // The pairs of shapes that may touch, in ascending order of their keys, and the contacts of those
 // that do: found by pair in constant time, in slots that do not move. A pair that ends leaves with
 // its contact. Most pairs have none, so what is kept of a pair is small.
+//
+// A contact that nobody looks at for the time being (both bodies rest) is put aside with its pair,
+// as it is, and costs nothing until it is taken back.
 
 #include <cstdint>
 #include <span>
@@ -9,6 +12,7 @@
 #include <vector>
 
 #include "base/pair_table.h"
+#include "contact/body_contacts.h"
 #include "contact/contact.h"
 #include "contact/manifold.h"
 #include "contact/reuse.h"
@@ -34,25 +38,33 @@ class ContactStore {
 public:
     static constexpr std::uint32_t none = PairTable::none;
 
-    // A renewal lists all pairs of the step, in ascending order of key; those not listed end.
+    // A renewal lists all pairs of the step, in ascending order of key; those not listed end, or
+    // are put aside.
     void begin_renewal();
     void renew(std::uint32_t shape_a, std::uint32_t shape_b);
-    // Ends what was not renewed, calling on_end(contact) for each that has a contact, in ascending
-    // order of key.
-    template <class OnEnd>
-    void end_renewal(OnEnd&& on_end);
+    // Ends what was not renewed, calling on_end(slot) for each that has a contact, in ascending
+    // order of key. Those whose contact is_idle(contact) are put aside.
+    template <class IsIdle, class OnEnd>
+    void end_renewal(IsIdle&& is_idle, OnEnd&& on_end);
 
-    // Ends pairs outside a renewal: those of a body that is gone, say.
-    template <class Unwanted>
-    void remove_if(Unwanted&& unwanted);
+    // Has a contact that was put aside listed again, from the next renewal on, or from
+    // list_returned() on.
+    void take_back(std::uint32_t slot);
+    void list_returned();
 
-    // Ascending.
+    // Ends listed pairs outside a renewal: those of a body that is gone, say. Calls on_end(slot) as
+    // above.
+    template <class Unwanted, class OnEnd>
+    void remove_if(Unwanted&& unwanted, OnEnd&& on_end);
+
+    // Ascending, without what was put aside.
     std::span<PairRecord> pairs() { return pairs_; }
     std::span<const PairRecord> pairs() const { return pairs_; }
+    // Put aside or not.
     const PairRecord* find_pair(std::uint32_t shape_a, std::uint32_t shape_b) const;
 
-    // Gives the pair a contact, as new.
-    Contact& add_contact(PairRecord& pair);
+    // Gives the pair a contact, as new, of these two bodies.
+    Contact& add_contact(PairRecord& pair, std::uint32_t body_a, std::uint32_t body_b);
     void remove_contact(PairRecord& pair);
     std::uint32_t find(std::uint32_t shape_a, std::uint32_t shape_b) const {
         return table_.find(pair_key(shape_a, shape_b));
@@ -63,12 +75,26 @@ public:
     FaceSighting& sighting(std::uint32_t slot) { return sightings_[slot]; }
     std::size_t contact_count() const { return table_.size(); }
 
+    // visit(slot) for each contact of the body, put aside or not.
+    template <class Visit>
+    void visit_contacts(std::uint32_t body, Visit&& visit) const {
+        by_body_.visit(body, visit);
+    }
+    bool has_contacts(std::uint32_t body) const { return by_body_.has_any(body); }
+
 private:
+    enum class Listing : std::uint8_t { Listed, Aside, Returning };
+    bool is_aside(std::uint32_t slot) const { return listings_[slot] != Listing::Listed; }
+
     std::vector<PairRecord> pairs_, previous_;
     std::size_t place_ = 0;          // in previous_: what comes before has been renewed or ended
     std::vector<PairRecord> ended_;  // with contacts
     std::vector<Contact> slots_;
-    std::vector<FaceSighting> sightings_;  // likewise
+    std::vector<FaceSighting> sightings_;  // likewise, and the next two
+    std::vector<Listing> listings_;
+    std::vector<PairRecord> asides_;        // of contacts that are not listed
+    std::vector<std::uint32_t> returning_;  // slots
+    BodyContacts by_body_;
     std::vector<std::uint32_t> free_;
     PairTable table_;
 };
@@ -77,22 +103,31 @@ private:
 // then the new points take the old ones' place.
 void match_points(Contact& contact, std::span<const ContactPoint> renewed);
 
-template <class Unwanted>
-void ContactStore::remove_if(Unwanted&& unwanted) {
+template <class Unwanted, class OnEnd>
+void ContactStore::remove_if(Unwanted&& unwanted, OnEnd&& on_end) {
+    list_returned();
     std::erase_if(pairs_, [&](PairRecord& pair) {
         if (!unwanted(std::as_const(pair))) return false;
-        if (pair.contact != none) remove_contact(pair);
+        if (pair.contact != none) {
+            on_end(pair.contact);
+            remove_contact(pair);
+        }
         return true;
     });
 }
 
-template <class OnEnd>
-void ContactStore::end_renewal(OnEnd&& on_end) {
+template <class IsIdle, class OnEnd>
+void ContactStore::end_renewal(IsIdle&& is_idle, OnEnd&& on_end) {
     for (; place_ < previous_.size(); ++place_) {
         if (previous_[place_].contact != none) ended_.push_back(previous_[place_]);
     }
     for (PairRecord& pair : ended_) {
-        on_end(slots_[pair.contact]);
+        if (is_idle(std::as_const(slots_[pair.contact]))) {
+            listings_[pair.contact] = Listing::Aside;
+            asides_[pair.contact] = pair;
+            continue;
+        }
+        on_end(pair.contact);
         remove_contact(pair);
     }
 }

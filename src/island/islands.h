@@ -41,7 +41,11 @@ public:
         return link < links_.size() && links_[link].ends[0].node != none;
     }
 
-    // The body must be there.
+    std::size_t body_count() const { return nodes_.size() - free_nodes_.size(); }
+    // A small number that is the body's own while it is there, below place_end(); the body must be
+    // there, here and below.
+    std::uint32_t place_of(std::uint32_t body) const { return places_[body]; }
+    std::uint32_t place_end() const { return std::uint32_t(nodes_.size()); }
     std::uint32_t island_of(std::uint32_t body) const { return nodes_[places_[body]].island; }
     // Below island_end(); not every number there is an island.
     bool is_island(std::uint32_t island) const {

@@ -210,7 +210,7 @@ SceneBody read_body(const JsonValue& value, const Place& at,
         }
     }
     read_mass(fields, body.def);
-    fields.read("can_sleep", body.can_sleep);
+    fields.read("can_sleep", body.def.can_sleep);
     fields.read("continuous", body.continuous);
     if (const JsonValue* filter = fields.find("collision")) {
         body.def.collision = read_filter(*filter, fields.place("collision"));

@@ -74,11 +74,12 @@ void read_word(const Fields& fields, std::string_view key, Result<Value> (*parse
 }
 
 void read_world(const JsonValue& value, const Place& at, Scene& scene) {
-    static constexpr std::string_view keys[] = {"gravity", "sleeping", "continuous",
+    static constexpr std::string_view keys[] = {"gravity", "sleeping", "sleep_time", "continuous",
                                                 "restitution_threshold"};
     const Fields fields(value, at, keys);
     fields.read("gravity", scene.world.gravity);
-    fields.read("sleeping", scene.sleeping);
+    fields.read("sleeping", scene.world.sleeping);
+    fields.read("sleep_time", scene.world.sleep_time, positive);
     fields.read("continuous", scene.continuous);
     fields.read("restitution_threshold", scene.world.restitution_threshold, not_negative);
 }

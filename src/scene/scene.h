@@ -34,7 +34,6 @@ struct SceneBody {
     /// The material's name for each shape, empty where the shape has its own numbers. Not longer
     /// than def.shapes; the numbers stand in def either way.
     std::vector<std::string> materials = {};
-    bool can_sleep = true;
     bool continuous = false;
     std::optional<Repeat> repeat = {};
 };
@@ -50,7 +49,6 @@ struct Scene {
     double duration = 10;  ///< s, that a run takes unless told otherwise
     double dt = 1.0 / 60;  ///< s
     WorldSettings world = {};
-    bool sleeping = true;
     bool continuous = true;
     std::vector<NamedMaterial> materials = {};
     std::vector<SceneBody> bodies = {};

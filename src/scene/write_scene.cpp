@@ -104,7 +104,7 @@ void write_body(JsonWriter& json, const SceneBody& body) {
     if (def.kind == BodyKind::Static) json.member("kind", "static");
     if (def.kind == BodyKind::Kinematic) json.member("kind", "kinematic");
     write_motion(json, def);
-    if (!body.can_sleep) json.member("can_sleep", false);
+    if (!def.can_sleep) json.member("can_sleep", false);
     if (body.continuous) json.member("continuous", true);
     if (def.collision != CollisionFilter{}) {
         json.key("collision").begin_object(Layout::Inline);
@@ -156,7 +156,9 @@ std::string write_scene(const Scene& scene) {
     json.member("cairn", 1).member("name", scene.name).member("description", scene.description);
     json.member("duration", scene.duration);
     json.key("world").begin_object();
-    json.member("gravity", scene.world.gravity).member("sleeping", scene.sleeping);
+    json.member("gravity", scene.world.gravity).member("sleeping", scene.world.sleeping);
+    if (scene.world.sleep_time != WorldSettings{}.sleep_time)
+        json.member("sleep_time", scene.world.sleep_time);
     json.member("continuous", scene.continuous);
     json.member("restitution_threshold", scene.world.restitution_threshold).end();
     write_step(json, scene);

@@ -10,6 +10,7 @@
 #include "narrow/axis_box_box.h"
 #include "narrow/find_axis.h"
 #include "shape/bounds.h"
+#include "world/sleep.h"
 
 namespace cairn {
 
@@ -108,23 +109,25 @@ Axis find_axis_within(const Geometry& a, const Geometry& b, const Pose& b_in_a, 
     return axis;
 }
 
-// Where the shape is, with what it may reach.
-void place_proxy(const WorldState& world, float h, Proxy& proxy) {
-    const ShapeRecord& shape = world.shapes[proxy.id];
-    const std::uint32_t body = shape.body;
+// A box that holds the shape throughout the next dt seconds, if it moves.
+Aabb find_box(const WorldState& world, const ShapeRecord& shape, bool moves, float h) {
     const Quat rotation = shape_rotation(world, shape);
-    const Position center = world.positions[body] + shape_offset(world, shape);
+    const Position center = world.positions[shape.body] + shape_offset(world, shape);
     Vec3 half = bounds_half_extents(shape.def.geometry, to_matrix(rotation));
-    proxy.moves = world.drives[body].kind != BodyKind::Static && !world.bodies[body].frozen;
     if (!is_plane(shape.def.geometry)) {
         float margin = skin_share * shape.size;
-        if (proxy.moves) {
-            const float speed = length(world.motions[body].linear_velocity);
+        if (moves) {
+            const float speed = length(world.motions[shape.body].linear_velocity);
             margin += h * speed + turning_reach(world, shape, h) + fall_in(world, h);
         }
         half = half + Vec3{margin, margin, margin};
     }
-    proxy.box = box_around(center, half);
+    return box_around(center, half);
+}
+
+// Whether anything short of a change by the user can move the body.
+bool can_move(const WorldState& world, std::uint32_t body) {
+    return world.drives[body].kind != BodyKind::Static && !world.bodies[body].frozen;
 }
 
 // Shapes, bodies and pairs are shared out in blocks of so many: some microseconds' work.
@@ -133,37 +136,66 @@ constexpr int bodies_a_block = 128;
 constexpr int searches_a_block = 16;
 
 // The box with room for some steps more.
-Aabb fatten(const WorldState& world, const Proxy& proxy, float dt) {
-    if (!proxy.moves) return proxy.box;
-    const ShapeRecord& shape = world.shapes[proxy.id];
+Aabb fatten(const WorldState& world, const ShapeRecord& shape, const Aabb& box, bool moves,
+            float h) {
+    if (!moves) return box;
     const float speed = length(world.motions[shape.body].linear_velocity);
-    const float room = fat_share * shape.size + dt * speed;
+    const float room = fat_share * shape.size + h * speed;
     const Vec3 margin = {room, room, room};
-    return {proxy.box.lower - margin, proxy.box.upper + margin};
+    return {box.lower - margin, box.upper + margin};
 }
 
-// Brings the tree to the shapes that there are.
-void update_tree(WorldState& world, float dt, std::span<const Proxy> proxies) {
-    auto& added = world.scratch.new_proxies;
-    added.clear();
-    std::uint32_t next = 0;
-    const auto remove_until = [&](std::uint32_t end) {
-        for (; next < end; ++next) world.tree.remove(next);
-        ++next;
-    };
-    for (const Proxy& proxy : proxies) {
-        remove_until(proxy.id);
-        if (!world.tree.is_there(proxy.id)) {
-            added.push_back({fatten(world, proxy, dt), proxy.id, proxy.moves});
-            continue;
-        }
-        if (world.tree.moves(proxy.id) != proxy.moves) {
-            world.tree.set_moves(proxy.id, proxy.moves);
-        }
-        world.tree.update(proxy.id, proxy.box, fatten(world, proxy, dt));
+// Brings the tree to a shape's new box.
+void update_tree(WorldState& world, std::uint32_t slot, float h) {
+    const ShapeRecord& shape = world.shapes[slot];
+    const Aabb& box = world.boxes[slot];
+    const bool moves = can_move(world, shape.body);
+    if (!world.tree.is_there(slot)) {
+        world.scratch.new_proxies.push_back({fatten(world, shape, box, moves, h), slot, moves});
+        return;
     }
-    remove_until(std::uint32_t(world.shapes.size()));
-    world.tree.insert_many(added);
+    world.tree.set_moves(slot, moves);
+    world.tree.update(slot, box, fatten(world, shape, box, moves, h));
+}
+
+// Renews the boxes of all bodies that move, and of those that are stale, whose pairs are then
+// looked up whatever their boxes are; likewise in the tree, where there is one.
+void update_boxes(WorldState& world, Team& team, float h) {
+    auto& stale = world.rest.stale;
+    std::sort(stale.begin(), stale.end());
+    stale.erase(std::unique(stale.begin(), stale.end()), stale.end());
+    auto& updated = world.scratch.updated;
+    updated.clear();
+    const auto add = [&](std::uint32_t body) {
+        const auto& shapes = world.bodies[body].shapes;
+        updated.insert(updated.end(), shapes.begin(), shapes.end());
+    };
+    for (const std::uint32_t body : world.rest.movers) add(body);
+    for (const std::uint32_t body : stale) {
+        if (!moves(world, body)) add(body);
+    }
+    world.boxes.resize(world.shapes.size());
+    team.for_range(int(updated.size()), shapes_a_block, [&](int begin, int end, int) {
+        for (int i = begin; i < end; ++i) {
+            const std::uint32_t slot = updated[std::size_t(i)];
+            const ShapeRecord& shape = world.shapes[slot];
+            world.boxes[slot] = find_box(world, shape, moves(world, shape.body), h);
+        }
+    });
+    if (world.settings.step.broad_phase == BroadPhase::Tree) {
+        world.scratch.new_proxies.clear();
+        for (const std::uint32_t slot : updated) update_tree(world, slot, h);
+        world.tree.insert_many(world.scratch.new_proxies);
+        for (const std::uint32_t body : stale) {
+            for (const std::uint32_t slot : world.bodies[body].shapes) world.tree.look_up(slot);
+        }
+    }
+    stale.clear();
+}
+
+bool is_idle(const WorldState& world, const Pair& pair) {
+    return !is_looked_at(world, world.shapes[pair.a].body) &&
+           !is_looked_at(world, world.shapes[pair.b].body);
 }
 
 void find_new_pairs(WorldState& world, Team& team) {
@@ -182,46 +214,56 @@ void find_new_pairs(WorldState& world, Team& team) {
     world.tree.finish_search(scratch.found_pairs);
 }
 
-}  // namespace
-
-void update_proxies(const WorldState& world, Team& team, double dt, std::vector<Proxy>& proxies) {
-    proxies.clear();
-    for (std::uint32_t slot = 0; slot < world.shapes.size(); ++slot) {
-        if (world.shapes[slot].alive) proxies.push_back({{}, slot, false});
-    }
-    team.for_range(int(proxies.size()), shapes_a_block, [&](int begin, int end, int) {
-        for (int i = begin; i < end; ++i) place_proxy(world, float(dt), proxies[std::size_t(i)]);
+void find_tree_pairs(WorldState& world, Team& team, std::vector<Pair>& pairs) {
+    WorldState::Scratch& scratch = world.scratch;
+    find_new_pairs(world, team);
+    auto& found = scratch.found_pairs;
+    std::erase_if(found, [&](const Pair& pair) { return is_idle(world, pair); });
+    const bool any_idle = world.rest.any_idle;
+    world.rest.any_idle = false;
+    std::erase_if(world.fat_pairs, [&](const Pair& pair) {
+        return !world.tree.make_pair(pair.a, pair.b) || (any_idle && is_idle(world, pair));
     });
+    // A pair is told again when one of its two has left its box.
+    scratch.merged_pairs.clear();
+    std::set_union(world.fat_pairs.begin(), world.fat_pairs.end(), found.begin(), found.end(),
+                   std::back_inserter(scratch.merged_pairs));
+    world.fat_pairs.swap(scratch.merged_pairs);
+    pairs.clear();
+    for (const Pair& pair : world.fat_pairs) {
+        if (overlaps(world.boxes[pair.a], world.boxes[pair.b]) && may_touch(world, pair))
+            pairs.push_back(pair);
+    }
 }
 
-void find_all_pairs(const WorldState& world, BruteForce& broad, std::span<const Proxy> proxies,
-                    std::vector<Pair>& pairs) {
-    broad.find_pairs(proxies, pairs);
+}  // namespace
+
+void find_step_pairs(WorldState& world, Team& team, double dt, std::vector<Pair>& pairs) {
+    update_boxes(world, team, float(dt));
+    if (world.settings.step.broad_phase == BroadPhase::Tree)
+        return find_tree_pairs(world, team, pairs);
+    auto& proxies = world.scratch.proxies;
+    proxies.clear();
+    for (std::uint32_t slot = 0; slot < world.shapes.size(); ++slot) {
+        const ShapeRecord& shape = world.shapes[slot];
+        if (shape.alive)
+            proxies.push_back({world.boxes[slot], slot, is_looked_at(world, shape.body)});
+    }
+    world.scratch.broad.find_pairs(proxies, pairs);
     std::erase_if(pairs, [&](const Pair& pair) { return !may_touch(world, pair); });
 }
 
-void find_tree_pairs(WorldState& world, Team& team, double dt, std::span<const Proxy> proxies,
-                     std::vector<Pair>& pairs) {
-    update_tree(world, float(dt), proxies);
-    WorldState::Scratch& scratch = world.scratch;
-    find_new_pairs(world, team);
-    std::erase_if(world.fat_pairs,
-                  [&](const Pair& pair) { return !world.tree.make_pair(pair.a, pair.b); });
-    // A pair is told again when one of its two has left its box.
-    scratch.merged_pairs.clear();
-    std::set_union(world.fat_pairs.begin(), world.fat_pairs.end(), scratch.found_pairs.begin(),
-                   scratch.found_pairs.end(), std::back_inserter(scratch.merged_pairs));
-    world.fat_pairs.swap(scratch.merged_pairs);
-
-    auto& places = scratch.proxy_places;
-    places.resize(world.shapes.size());
-    for (std::size_t i = 0; i < proxies.size(); ++i) places[proxies[i].id] = std::uint32_t(i);
-    pairs.clear();
-    for (const Pair& pair : world.fat_pairs) {
-        const Proxy& a = proxies[places[pair.a]];
-        const Proxy& b = proxies[places[pair.b]];
-        if (overlaps(a.box, b.box) && may_touch(world, pair)) pairs.push_back(pair);
+void find_present_pairs(const WorldState& world, double dt, std::vector<Pair>& pairs) {
+    std::vector<Proxy> proxies;
+    for (std::uint32_t slot = 0; slot < world.shapes.size(); ++slot) {
+        const ShapeRecord& shape = world.shapes[slot];
+        if (!shape.alive) continue;
+        const bool moves = can_move(world, shape.body);
+        proxies.push_back({find_box(world, shape, moves, float(dt)), slot, moves});
     }
+    BruteForce broad;
+    broad.find_pairs(proxies, pairs);
+    std::erase_if(pairs, [&](const Pair& pair) { return !may_touch(world, pair); });
 }
 
 void update_way(WorldState& world, std::uint32_t body, float h, float fall) {

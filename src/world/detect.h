@@ -6,15 +6,12 @@
 
 namespace cairn {
 
-// One proxy a living shape: its box, grown by what the shape may reach in dt seconds.
-void update_proxies(const WorldState& world, Team& team, double dt, std::vector<Proxy>& proxies);
-
-// The pairs of shapes that may touch: boxes overlap, bodies differ, filters agree. Sorted, and the
-// same whichever broad phase finds them: the tree's pairs of fat boxes are put to the same test.
-void find_all_pairs(const WorldState& world, BruteForce& broad, std::span<const Proxy> proxies,
-                    std::vector<Pair>& pairs);
-void find_tree_pairs(WorldState& world, Team& team, double dt, std::span<const Proxy> proxies,
-                     std::vector<Pair>& pairs);
+// The pairs of shapes that may touch in this step: boxes overlap, bodies differ, filters agree, and
+// one of the bodies is looked at (sleep.h). Sorted, and the same whichever broad phase finds them:
+// the tree's pairs of fat boxes are put to the same test.
+void find_step_pairs(WorldState& world, Team& team, double dt, std::vector<Pair>& pairs);
+// The same between steps, at the present poses and of all bodies, those that rest included.
+void find_present_pairs(const WorldState& world, double dt, std::vector<Pair>& pairs);
 
 // How far a body has gone since it was last seen, and may go in h seconds, falling by `fall`; and
 // all that move in this step. One that will not move any more is seen once more when it stops.

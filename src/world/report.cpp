@@ -6,6 +6,7 @@
 #include "base/float_environment.h"
 #include "cairn/version.h"
 #include "world/detect.h"
+#include "world/sleep.h"
 #include "world/world_state.h"
 
 namespace cairn {
@@ -85,13 +86,9 @@ ContactReport describe(const WorldState& world, const Contact& contact, float wi
 std::vector<ContactReport> World::contacts() const {
     const FloatEnvironment ieee;
     const WorldState& world = *state_;
-    std::vector<Proxy> proxies;
     std::vector<Pair> pairs;
     std::vector<ContactReport> reports;
-    Team alone{SharedScheduler()};
-    update_proxies(world, alone, world.last_dt, proxies);
-    BruteForce broad;
-    find_all_pairs(world, broad, proxies, pairs);
+    find_present_pairs(world, world.last_dt, pairs);
     for (const Pair& pair : pairs) {
         Contact contact;
         contact.shape_a = pair.a;
@@ -232,7 +229,7 @@ std::uint64_t World::state_hash() const {
         hash.add(motion.rotation.w);
         hash.add(motion.linear_velocity);
         hash.add(motion.angular_velocity);
-        hash.add(std::uint8_t{0});
+        hash.add(std::uint8_t(is_asleep(world, slot)));
     }
     return hash.value();
 }

@@ -6,6 +6,7 @@
 #include <chrono>
 
 #include "world/detect.h"
+#include "world/sleep.h"
 
 namespace cairn {
 
@@ -47,19 +48,25 @@ void freeze(WorldState& world, std::uint32_t slot, Quantity quantity) {
     world.inertias[slot] = {};
     world.motions[slot].linear_velocity = {};
     world.motions[slot].angular_velocity = {};
-    update_way(world, slot, 0, 0);
+    update_membership(world, slot);
     world.non_finite.push_back(
         {body_id(world, slot), world.report.step, world.report.time, quantity});
 }
 
-// How high each body is, against gravity: an order, so that binary32 is enough.
+// How high the bodies are that move or are touched, against gravity: an order, so that binary32 is
+// enough.
 void find_heights(WorldState& world) {
     const Vec3 up = normalize_or(-world.settings.gravity, {});
-    world.scratch.heights.resize(world.positions.size());
-    for (std::size_t i = 0; i < world.positions.size(); ++i) {
-        const Position& p = world.positions[i];
-        world.scratch.heights[i] =
-            float(double(up.x) * p.x + double(up.y) * p.y + double(up.z) * p.z);
+    auto& heights = world.scratch.heights;
+    heights.resize(world.positions.size());
+    const auto find_height = [&](std::uint32_t body) {
+        const Position& p = world.positions[body];
+        heights[body] = float(double(up.x) * p.x + double(up.y) * p.y + double(up.z) * p.z);
+    };
+    for (const std::uint32_t body : world.scratch.moving) find_height(body);
+    for (const std::uint32_t slot : world.scratch.active) {
+        find_height(world.contacts[slot].body_a);
+        find_height(world.contacts[slot].body_b);
     }
 }
 
@@ -123,62 +130,75 @@ ContactEvent make_event(const WorldState& world, const Contact& contact, Contact
             shape_id(world, contact.shape_a), shape_id(world, contact.shape_b)};
 }
 
+void report_end(WorldState& world, std::uint32_t slot) {
+    const Contact& ended = world.contacts[slot];
+    if (ended.touching) world.events.push_back(make_event(world, ended, ContactEventKind::End));
+    unlink_contact(world, slot);
+}
+
+// Gives a moving body the forces of the step and lists it; freezes one whose velocity these would
+// take beyond all numbers.
+void drive_body(WorldState& world, std::uint32_t slot, float h) {
+    BodyRecord& body = world.bodies[slot];
+    BodyMotion& motion = world.motions[slot];
+    BodyDrive& drive = world.drives[slot];
+    motion.displacement = {};
+    drive.force = body.constant_force + body.step_force;
+    drive.torque = body.constant_torque + body.step_torque;
+    body.step_force = body.step_torque = {};
+    const BodyInertia& inertia = world.inertias[slot];
+    const Vec3 push =
+        drive.gravity_scale * world.settings.gravity + inertia.inverse_mass * drive.force;
+    const Vec3 twist = rotate(
+        motion.rotation, inertia.inverse_inertia * rotate_inverse(motion.rotation, drive.torque));
+    if (!is_sound(motion.linear_velocity + h * push)) {
+        freeze(world, slot, Quantity::LinearVelocity);
+    } else if (!is_sound(motion.angular_velocity + h * twist)) {
+        freeze(world, slot, Quantity::AngularVelocity);
+    } else {
+        world.scratch.moving.push_back(slot);
+    }
+}
+
+// Lists the contacts that have points.
+void list_active(WorldState& world) {
+    auto& active = world.scratch.active;
+    active.clear();
+    std::size_t point_count = 0;
+    for (const PairRecord& pair : world.contacts.pairs()) {
+        if (!pair.meets) continue;
+        Contact& contact = world.contacts[pair.contact];
+        turn_surface_velocity(world, contact);
+        active.push_back(pair.contact);
+        point_count += std::size_t(contact.point_count);
+    }
+    world.report.contact_count = point_count;
+}
+
 }  // namespace
 
-// Reads what the user set; writes the drives and the list of bodies that move, keeps a copy of
-// their motion, and freezes a body whose velocity the step's own forces would take beyond all
-// numbers.
+// Reads what the user set; writes the drives and the list of bodies that move.
 void apply_changes(WorldState& world, double dt) {
     world.report.stage_seconds = {};
     ++world.report.step;
     world.report.time += dt;
     world.events.clear();
     world.last_dt = dt;
-    auto& moving = world.scratch.moving;
-    moving.clear();
-    const auto h = float(dt);
-    for (std::uint32_t slot = 0; slot < world.bodies.size(); ++slot) {
-        BodyRecord& body = world.bodies[slot];
-        BodyMotion& motion = world.motions[slot];
-        BodyDrive& drive = world.drives[slot];
-        motion.displacement = {};
-        if (!body.alive || body.frozen || drive.kind == BodyKind::Static) continue;
-        drive.force = body.constant_force + body.step_force;
-        drive.torque = body.constant_torque + body.step_torque;
-        body.step_force = body.step_torque = {};
-        const BodyInertia& inertia = world.inertias[slot];
-        const Vec3 push =
-            drive.gravity_scale * world.settings.gravity + inertia.inverse_mass * drive.force;
-        const Vec3 twist =
-            rotate(motion.rotation,
-                   inertia.inverse_inertia * rotate_inverse(motion.rotation, drive.torque));
-        if (!is_sound(motion.linear_velocity + h * push)) {
-            freeze(world, slot, Quantity::LinearVelocity);
-        } else if (!is_sound(motion.angular_velocity + h * twist)) {
-            freeze(world, slot, Quantity::AngularVelocity);
-        } else {
-            moving.push_back(slot);
-        }
-    }
-    world.scratch.before = world.motions;
-    find_heights(world);
+    list_moving(world);
+    world.scratch.moving.clear();
+    for (const std::uint32_t slot : world.rest.movers) drive_body(world, slot, float(dt));
 }
 
 // Reads poses and velocities; renews the list of contacts, ends those whose boxes parted.
 void find_pairs(WorldState& world, Team& team, double dt) {
     const StageTimer timer(world, Stage::FindPairs);
-    update_proxies(world, team, dt, world.scratch.proxies);
-    WorldState::Scratch& scratch = world.scratch;
-    if (world.settings.step.broad_phase == BroadPhase::Tree) {
-        find_tree_pairs(world, team, dt, scratch.proxies, scratch.pairs);
-    } else {
-        find_all_pairs(world, scratch.broad, scratch.proxies, scratch.pairs);
-    }
+    find_step_pairs(world, team, dt, world.scratch.pairs);
     world.contacts.begin_renewal();
     for (const Pair& pair : world.scratch.pairs) world.contacts.renew(pair.a, pair.b);
-    world.contacts.end_renewal([&](const Contact& ended) {
-        if (ended.touching) world.events.push_back(make_event(world, ended, ContactEventKind::End));
-    });
+    const auto is_idle = [&](const Contact& contact) {
+        return !is_looked_at(world, contact.body_a) && !is_looked_at(world, contact.body_b);
+    };
+    world.contacts.end_renewal(is_idle, [&](std::uint32_t slot) { report_end(world, slot); });
     world.report.pair_count = world.scratch.pairs.size();
 }
 
@@ -210,32 +230,45 @@ void build_manifolds(WorldState& world, Team& team) {
     const auto& meetings = world.scratch.listed_meetings;
     for (const Meeting* meeting : meetings) {
         PairRecord& pair = world.contacts.pairs()[meeting->pair];
-        if (pair.contact == ContactStore::none)
-            describe_contact(world, world.contacts.add_contact(pair));
+        if (pair.contact != ContactStore::none) continue;
+        const std::uint32_t body_a = world.shapes[pair.shape_a].body;
+        const std::uint32_t body_b = world.shapes[pair.shape_b].body;
+        describe_contact(world, world.contacts.add_contact(pair, body_a, body_b));
     }
     team.for_range(int(meetings.size()), meetings_a_block, [&](int begin, int end, int) {
         for (int i = begin; i < end; ++i) find_points(world, *meetings[std::size_t(i)]);
     });
-    auto& active = world.scratch.active;
-    active.clear();
-    std::size_t point_count = 0, found_count = 0;
-    for (const Meeting* meeting : meetings) {
+    list_active(world);
+    std::size_t found_count = 0;
+    for (const Meeting* meeting : meetings)
         found_count += world.contacts.pairs()[meeting->pair].meets ? 1 : 0;
+    world.report.reused_count = world.scratch.active.size() - found_count;
+}
+
+// Reads the contacts that have points; writes the islands. What sleeps and is touched wakes and
+// takes part in this step, with the contacts that it fell asleep with: nothing has moved since.
+void join_islands(WorldState& world, double dt) {
+    const StageTimer timer(world, Stage::BuildManifolds);
+    if (!link_contacts(world)) return;
+    list_moving(world);
+    world.contacts.list_returned();
+    list_active(world);
+    auto& moving = world.scratch.moving;
+    const std::vector<std::uint32_t> before = moving;
+    for (const std::uint32_t slot : world.rest.movers) {
+        const bool is_new = !std::binary_search(before.begin(), before.end(), slot);
+        if (is_new && !world.bodies[slot].frozen) drive_body(world, slot, float(dt));
     }
-    for (const PairRecord& pair : world.contacts.pairs()) {
-        if (!pair.meets) continue;
-        Contact& contact = world.contacts[pair.contact];
-        turn_surface_velocity(world, contact);
-        active.push_back(pair.contact);
-        point_count += std::size_t(contact.point_count);
-    }
-    world.report.contact_count = point_count;
-    world.report.reused_count = active.size() - found_count;
+    std::sort(moving.begin(), moving.end());
 }
 
 // Reads everything above; writes velocities, rotations, displacements and impulses.
 void advance(WorldState& world, Team& team, double dt) {
     const StageTimer timer(world, Stage::Solve);
+    find_heights(world);
+    auto& before = world.scratch.before;
+    before.clear();
+    for (const std::uint32_t slot : world.scratch.moving) before.push_back(world.motions[slot]);
     const StepSettings& step = world.settings.step;
     const StepProblem problem = {
         .motions = world.motions,
@@ -262,7 +295,8 @@ void advance(WorldState& world, Team& team, double dt) {
 void move_bodies(WorldState& world) {
     const StageTimer timer(world, Stage::Finish);
     bool any_frozen = false;
-    for (const std::uint32_t slot : world.scratch.moving) {
+    for (std::size_t k = 0; k < world.scratch.moving.size(); ++k) {
+        const std::uint32_t slot = world.scratch.moving[k];
         BodyMotion& motion = world.motions[slot];
         const Position moved = world.positions[slot] + motion.displacement;
         std::optional<Quantity> wrong;
@@ -278,7 +312,7 @@ void move_bodies(WorldState& world) {
             world.positions[slot] = moved;
             continue;
         }
-        motion = world.scratch.before[slot];
+        motion = world.scratch.before[k];
         freeze(world, slot, *wrong);
         any_frozen = true;
     }
@@ -303,8 +337,16 @@ void report_contacts(WorldState& world) {
             world.events.push_back(make_event(world, contact, kind));
         }
         contact.touching = touching;
-        if (contact.point_count == 0) world.contacts.remove_contact(pair);
+        if (contact.point_count > 0) continue;
+        unlink_contact(world, pair.contact);
+        world.contacts.remove_contact(pair);
     }
+}
+
+// Reads what each body has done; writes who sleeps from here on.
+void put_to_rest(WorldState& world, double dt) {
+    const StageTimer timer(world, Stage::Finish);
+    find_sleepers(world, dt);
 }
 
 }  // namespace cairn

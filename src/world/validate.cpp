@@ -207,6 +207,7 @@ Refusal check_settings(const WorldSettings& s) {
     if (Refusal r = first_of(
             check_finite("settings.gravity", s.gravity),
             check_at_least("settings.restitution_threshold", double(s.restitution_threshold), 0),
+            check_positive("settings.sleep_time", double(s.sleep_time)),
             check_at_least("settings.step.contact_compliance", double(s.step.contact_compliance),
                            0))) {
         return r;

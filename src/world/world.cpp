@@ -6,6 +6,7 @@
 #include "shape/bounds.h"
 #include "shape/mass.h"
 #include "world/detect.h"
+#include "world/sleep.h"
 #include "world/step.h"
 #include "world/validate.h"
 #include "world/world_state.h"
@@ -90,6 +91,7 @@ void assign_mass(WorldState& world, std::uint32_t slot, const MassProperties& pr
                       bounding_radius(shape.def.geometry);
         reach = max(reach, shape.reach);
     }
+    measure_extent(world, slot);
 }
 
 std::uint32_t take_slot(std::vector<std::uint32_t>& free, std::size_t size) {
@@ -117,6 +119,7 @@ std::uint32_t add_shape(WorldState& world, std::uint32_t body, const ShapeDef& d
 void remove_shape(WorldState& world, std::uint32_t slot) {
     ShapeRecord& shape = world.shapes[slot];
     std::erase(world.bodies[shape.body].shapes, slot);
+    world.tree.remove(slot);
     shape.alive = false;
     ++shape.generation;
     world.free_shapes.push_back(slot);
@@ -125,9 +128,10 @@ void remove_shape(WorldState& world, std::uint32_t slot) {
 // Contacts of what has just been removed, or is somewhere else now, end at once, so that a slot
 // used again inherits no impulses.
 void forget_contacts(WorldState& world, std::uint32_t body) {
-    world.contacts.remove_if([&](const PairRecord& pair) {
+    const auto is_of_body = [&](const PairRecord& pair) {
         return world.shapes[pair.shape_a].body == body || world.shapes[pair.shape_b].body == body;
-    });
+    };
+    world.contacts.remove_if(is_of_body, [&](std::uint32_t slot) { unlink_contact(world, slot); });
 }
 
 // Every contact is found anew in the next step.
@@ -137,6 +141,14 @@ void forget_sightings(WorldState& world) {
         if (pair.contact == ContactStore::none) continue;
         world.contacts.sighting(pair.contact).owner = FaceSighting::Owner::None;
     }
+}
+
+// The broad phase begins anew.
+void forget_pairs(WorldState& world) {
+    world.tree = {};
+    world.fat_pairs.clear();
+    for (std::uint32_t slot = 0; slot < world.bodies.size(); ++slot)
+        world.rest.stale.push_back(slot);
 }
 
 }  // namespace
@@ -170,7 +182,10 @@ Status World::set_settings(const WorldSettings& settings) {
     if (settings.step.solver != state_->settings.step.solver)
         state_->solver = make_solver(settings.step.solver);
     if (settings.step.narrow_phase != state_->settings.step.narrow_phase) forget_sightings(*state_);
+    if (settings.step.broad_phase != state_->settings.step.broad_phase) forget_pairs(*state_);
+    const bool wakes = settings.gravity != state_->settings.gravity || !settings.sleeping;
     state_->settings = settings;
+    if (wakes) wake_all(*state_);
     return Done{};
 }
 
@@ -199,6 +214,7 @@ Result<BodyId> World::create_body(const BodyDef& def) {
         world.inertias.emplace_back();
         world.drives.emplace_back();
         world.ways.emplace_back();
+        world.rest.states.push_back(0);
     }
     BodyRecord& body = world.bodies[slot];
     wanted.generation = body.generation;
@@ -206,6 +222,7 @@ Result<BodyId> World::create_body(const BodyDef& def) {
     wanted.constant_force = def.force;
     wanted.constant_torque = def.torque;
     wanted.filter = def.collision;
+    wanted.can_sleep = def.can_sleep;
     body = std::move(wanted);
     ++world.body_count;
 
@@ -225,6 +242,8 @@ Result<BodyId> World::create_body(const BodyDef& def) {
         world.motions[slot].linear_velocity = def.linear_velocity;
         world.motions[slot].angular_velocity = def.angular_velocity;
     }
+    update_membership(world, slot);
+    note_change(world, slot);
     return body_id(world, slot);
 }
 
@@ -232,11 +251,13 @@ Status World::destroy_body(BodyId id) {
     WorldState& world = *state_;
     if (!names(world, id)) return tell(world, stale("destroy_body", "body"));
     BodyRecord& body = world.bodies[id.index];
-    while (!body.shapes.empty()) remove_shape(world, body.shapes.back());
+    note_change(world, id.index);
     forget_contacts(world, id.index);
+    while (!body.shapes.empty()) remove_shape(world, body.shapes.back());
     const std::uint32_t generation = body.generation + 1;
     body = {};
     body.generation = generation;
+    update_membership(world, id.index);
     world.motions[id.index] = {};
     world.inertias[id.index] = {};
     world.drives[id.index] = {};
@@ -257,6 +278,7 @@ Result<ShapeId> World::create_shape(BodyId id, const ShapeDef& def) {
     if (!mass) return tell(world, "create_shape", mass.error());
     const std::uint32_t slot = add_shape(world, id.index, def);
     assign_mass(world, id.index, *mass);
+    note_change(world, id.index);
     return shape_id(world, slot);
 }
 
@@ -272,9 +294,11 @@ Status World::destroy_shape(ShapeId id) {
     }
     const Result<MassProperties> mass = resolve_mass(body, world.drives[slot].kind, defs);
     if (!mass) return tell(world, "destroy_shape", mass.error());
+    note_change(world, slot);
     remove_shape(world, id.index);
     world.contacts.remove_if(
-        [&](const PairRecord& p) { return p.shape_a == id.index || p.shape_b == id.index; });
+        [&](const PairRecord& p) { return p.shape_a == id.index || p.shape_b == id.index; },
+        [&](std::uint32_t contact) { unlink_contact(world, contact); });
     assign_mass(world, slot, *mass);
     return Done{};
 }
@@ -329,7 +353,7 @@ BodyState World::state(BodyId id) const {
             .linear_velocity = motion.linear_velocity,
             .angular_velocity = motion.angular_velocity,
             .kind = world.drives[id.index].kind,
-            .asleep = false,
+            .asleep = is_asleep(world, id.index),
             .frozen = world.bodies[id.index].frozen};
 }
 
@@ -364,6 +388,8 @@ Status World::set_pose(BodyId id, const Position& position, const Quat& rotation
         world.inertias[id.index] =
             can_move(world, id.index) ? make_inertia(body.mass_properties) : BodyInertia{};
     }
+    update_membership(world, id.index);
+    note_change(world, id.index);
     forget_contacts(world, id.index);
     return Done{};
 }
@@ -373,8 +399,11 @@ Status World::set_linear_velocity(BodyId id, const Vec3& velocity) {
     if (!names(world, id)) return tell(world, stale("set_linear_velocity", "body"));
     if (const Refusal r = check_finite("velocity", velocity))
         return tell(world, "set_linear_velocity", *r);
-    if (world.drives[id.index].kind != BodyKind::Static)
-        world.motions[id.index].linear_velocity = velocity;
+    if (world.drives[id.index].kind == BodyKind::Static) return Done{};
+    if (world.motions[id.index].linear_velocity == velocity) return Done{};
+    world.motions[id.index].linear_velocity = velocity;
+    wake(world, id.index);
+    update_membership(world, id.index);
     return Done{};
 }
 
@@ -383,8 +412,11 @@ Status World::set_angular_velocity(BodyId id, const Vec3& velocity) {
     if (!names(world, id)) return tell(world, stale("set_angular_velocity", "body"));
     if (const Refusal r = check_finite("velocity", velocity))
         return tell(world, "set_angular_velocity", *r);
-    if (world.drives[id.index].kind != BodyKind::Static)
-        world.motions[id.index].angular_velocity = velocity;
+    if (world.drives[id.index].kind == BodyKind::Static) return Done{};
+    if (world.motions[id.index].angular_velocity == velocity) return Done{};
+    world.motions[id.index].angular_velocity = velocity;
+    wake(world, id.index);
+    update_membership(world, id.index);
     return Done{};
 }
 
@@ -416,6 +448,7 @@ Status World::move_kinematic(BodyId id, const Position& position, const Quat& ro
     if (const Refusal r = check_finite("position", velocity)) return tell(world, call, *r);
     motion.linear_velocity = velocity;
     motion.angular_velocity = spin;
+    update_membership(world, id.index);
     return Done{};
 }
 
@@ -436,7 +469,8 @@ Status World::set_kind(BodyId id, BodyKind kind) {
         world.motions[id.index].angular_velocity = {};
     }
     assign_mass(world, id.index, *mass);
-    update_way(world, id.index, 0, 0);
+    update_membership(world, id.index);
+    note_change(world, id.index);
     return Done{};
 }
 
@@ -449,6 +483,7 @@ Status World::set_mass_properties(BodyId id, const MassProperties& properties) {
     world.bodies[id.index].given_mass.reset();
     world.bodies[id.index].given_mass_properties = properties;
     assign_mass(world, id.index, properties);
+    note_change(world, id.index);
     return Done{};
 }
 
@@ -456,7 +491,9 @@ Status World::set_gravity_scale(BodyId id, float scale) {
     if (!names(*state_, id)) return tell(*state_, stale("set_gravity_scale", "body"));
     if (const Refusal r = check_finite("scale", double(scale)))
         return tell(*state_, "set_gravity_scale", *r);
+    if (state_->drives[id.index].gravity_scale == scale) return Done{};
     state_->drives[id.index].gravity_scale = scale;
+    wake(*state_, id.index);
     return Done{};
 }
 
@@ -479,13 +516,17 @@ Status World::set_gyroscopic(BodyId id, bool on) {
 
 Status World::set_locked_axes(BodyId id, const LockedAxes& lock) {
     if (!names(*state_, id)) return tell(*state_, stale("set_locked_axes", "body"));
+    if (state_->drives[id.index].lock == lock) return Done{};
     state_->drives[id.index].lock = lock;
+    wake(*state_, id.index);
     return Done{};
 }
 
 Status World::set_collision_filter(BodyId id, const CollisionFilter& filter) {
     if (!names(*state_, id)) return tell(*state_, stale("set_collision_filter", "body"));
+    if (state_->bodies[id.index].filter == filter) return Done{};
     state_->bodies[id.index].filter = filter;
+    note_change(*state_, id.index);
     return Done{};
 }
 
@@ -493,7 +534,10 @@ Status World::set_material(ShapeId id, const Material& material) {
     if (!names(*state_, id)) return tell(*state_, stale("set_material", "shape"));
     if (const Refusal r = check_material("material", material))
         return tell(*state_, "set_material", *r);
+    if (state_->shapes[id.index].def.material == material) return Done{};
     state_->shapes[id.index].def.material = material;
+    note_change(*state_, state_->shapes[id.index].body);
+    state_->contacts.list_returned();
     for (const PairRecord& pair : state_->contacts.pairs()) {
         if (pair.contact == ContactStore::none) continue;
         if (pair.shape_a == id.index || pair.shape_b == id.index)
@@ -508,8 +552,33 @@ Status World::set_constant_force(BodyId id, const Vec3& force, const Vec3& torqu
         return tell(*state_, "set_constant_force", *r);
     if (const Refusal r = check_finite("torque", torque))
         return tell(*state_, "set_constant_force", *r);
-    state_->bodies[id.index].constant_force = force;
-    state_->bodies[id.index].constant_torque = torque;
+    BodyRecord& body = state_->bodies[id.index];
+    if (body.constant_force == force && body.constant_torque == torque) return Done{};
+    body.constant_force = force;
+    body.constant_torque = torque;
+    wake(*state_, id.index);
+    return Done{};
+}
+
+bool World::is_awake(BodyId id) const {
+    if (names(*state_, id)) return moves(*state_, id.index);
+    tell(*state_, stale("is_awake", "body"));
+    return false;
+}
+
+Status World::set_awake(BodyId id, bool awake) {
+    if (!names(*state_, id)) return tell(*state_, stale("set_awake", "body"));
+    if (awake)
+        wake(*state_, id.index);
+    else
+        put_to_sleep(*state_, id.index);
+    return Done{};
+}
+
+Status World::set_can_sleep(BodyId id, bool can_sleep) {
+    if (!names(*state_, id)) return tell(*state_, stale("set_can_sleep", "body"));
+    state_->bodies[id.index].can_sleep = can_sleep;
+    if (!can_sleep) wake(*state_, id.index);
     return Done{};
 }
 
@@ -517,6 +586,7 @@ Status World::apply_force(BodyId id, const Vec3& force) {
     if (!names(*state_, id)) return tell(*state_, stale("apply_force", "body"));
     if (const Refusal r = check_finite("force", force)) return tell(*state_, "apply_force", *r);
     const FloatEnvironment ieee;
+    if (force != Vec3{}) wake(*state_, id.index);
     state_->bodies[id.index].step_force += force;
     return Done{};
 }
@@ -527,6 +597,7 @@ Status World::apply_force_at(BodyId id, const Vec3& force, const Position& point
     if (const Refusal r = check_position("point", point))
         return tell(*state_, "apply_force_at", *r);
     const FloatEnvironment ieee;
+    if (force != Vec3{}) wake(*state_, id.index);
     state_->bodies[id.index].step_force += force;
     state_->bodies[id.index].step_torque += cross(point - state_->positions[id.index], force);
     return Done{};
@@ -536,6 +607,7 @@ Status World::apply_torque(BodyId id, const Vec3& torque) {
     if (!names(*state_, id)) return tell(*state_, stale("apply_torque", "body"));
     if (const Refusal r = check_finite("torque", torque)) return tell(*state_, "apply_torque", *r);
     const FloatEnvironment ieee;
+    if (torque != Vec3{}) wake(*state_, id.index);
     state_->bodies[id.index].step_torque += torque;
     return Done{};
 }
@@ -544,6 +616,7 @@ namespace {
 
 void push(WorldState& world, std::uint32_t slot, Vec3 linear, Vec3 angular) {
     const FloatEnvironment ieee;
+    if (linear != Vec3{} || angular != Vec3{}) wake(world, slot);
     const Response response =
         find_response(world.inertias[slot], world.drives[slot], world.motions[slot].rotation);
     world.motions[slot].linear_velocity += multiply(response.inverse_mass, linear);

@@ -15,6 +15,7 @@
 #include "constraint/step_problem.h"
 #include "contact/contact_store.h"
 #include "solver/solver.h"
+#include "world/rest_state.h"
 
 namespace cairn {
 
@@ -23,6 +24,7 @@ struct BodyRecord {
     std::uint32_t generation = 0;
     bool alive = false;
     bool frozen = false;
+    bool can_sleep = true;
     Vec3 center_of_mass;  // body frame
     Vec3 constant_force, constant_torque;
     Vec3 step_force, step_torque;  // for the next step alone
@@ -80,10 +82,14 @@ struct WorldState {
     std::vector<ShapeRecord> shapes;  // by shape slot
     std::vector<std::uint32_t> free_shapes;
 
+    // By shape slot: a box that holds the shape throughout the step, as of the last step that
+    // looked at it.
+    std::vector<Aabb> boxes;
     TreePairs tree;               // fat boxes, by shape slot
-    std::vector<Pair> fat_pairs;  // all pairs among them, sorted
+    std::vector<Pair> fat_pairs;  // those among them of which a body is looked at, sorted
 
     ContactStore contacts;
+    RestState rest;
 
     StepReport report;
     double last_dt = 0;
@@ -97,7 +103,7 @@ struct WorldState {
         std::vector<Pair> pairs, found_pairs, merged_pairs;
         std::vector<std::vector<Pair>> found_parts;  // by worker
         std::vector<Proxy> new_proxies;
-        std::vector<std::uint32_t> proxy_places;  // by shape slot
+        std::vector<std::uint32_t> updated;  // shapes
         std::vector<std::uint32_t> moving;
         std::vector<std::vector<Meeting>> meetings;  // by block of pairs
         std::vector<const Meeting*> listed_meetings;

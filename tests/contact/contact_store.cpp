@@ -10,16 +10,26 @@ namespace {
 
 using Keys = std::vector<std::uint64_t>;
 
-// Lists the pairs, each with a contact; the keys of the contacts that end.
-Keys renew(ContactStore& store, std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs) {
+using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+
+// Lists the pairs, each with a contact; the keys of the contacts that end. A shape is its own body,
+// and those from `idle` on rest.
+Keys renew(ContactStore& store, const Pairs& pairs, std::uint32_t idle = 1000) {
     Keys ended;
     store.begin_renewal();
     for (const auto& [a, b] : pairs) store.renew(a, b);
-    store.end_renewal([&](const Contact& contact) { ended.push_back(contact.key); });
+    store.end_renewal([&](const Contact& c) { return c.body_a >= idle && c.body_b >= idle; },
+                      [&](std::uint32_t slot) { ended.push_back(store[slot].key); });
     for (PairRecord& pair : store.pairs()) {
-        if (pair.contact == ContactStore::none) store.add_contact(pair);
+        if (pair.contact == ContactStore::none) store.add_contact(pair, pair.shape_a, pair.shape_b);
     }
     return ended;
+}
+
+Pairs list(const ContactStore& store) {
+    Pairs pairs;
+    for (const PairRecord& pair : store.pairs()) pairs.push_back({pair.shape_a, pair.shape_b});
+    return pairs;
 }
 
 ContactPoint point(std::uint32_t feature, float force = 0) {
@@ -49,14 +59,16 @@ TEST_CASE("a pair that ends leaves with its contact, and its slot begins anew") 
 
 TEST_CASE("a pair without a contact ends in silence, and keeps what is known of it until then") {
     ContactStore store;
+    const auto never = [](const Contact&) { return false; };
+    const auto fail = [](std::uint32_t) { FAIL("there is no contact"); };
     store.begin_renewal();
     store.renew(1, 2);
-    store.end_renewal([](const Contact&) { FAIL("there is no contact"); });
+    store.end_renewal(never, fail);
     store.pairs()[0].apart_until = 7;
     store.begin_renewal();
     store.renew(0, 9);
     store.renew(1, 2);
-    store.end_renewal([](const Contact&) { FAIL("there is no contact"); });
+    store.end_renewal(never, fail);
     REQUIRE(store.find_pair(1, 2) != nullptr);
     CHECK(store.find_pair(1, 2)->apart_until == 7);
     CHECK(renew(store, {}).empty());
@@ -69,6 +81,50 @@ TEST_CASE("a contact that stays keeps its slot") {
     const std::uint32_t slot = store.find(5, 9);
     for (int i = 0; i < 10; ++i) renew(store, {{0, 1}, {0, 3}, {5, 9}});
     CHECK(store.find(5, 9) == slot);
+}
+
+TEST_CASE("a contact whose bodies rest is put aside as it is, and comes back in its place") {
+    ContactStore store;
+    renew(store, {{0, 1}, {5, 9}, {6, 7}});
+    const std::uint32_t slot = store.find(5, 9);
+    store[slot].points[0].normal_force = 5;
+    store.pairs()[1].hint.kind = 3;
+    CHECK(renew(store, {{0, 1}}, 5).empty());
+    CHECK(list(store) == Pairs{{0, 1}});
+    CHECK(store.contact_count() == 3);
+    for (int i = 0; i < 3; ++i) CHECK(renew(store, {{0, 1}, {0, 2}}, 5).empty());
+    REQUIRE(store.find_pair(5, 9) != nullptr);
+    CHECK(store.find_pair(5, 9)->contact == slot);
+    CHECK(store.has_contacts(9));
+
+    // At once, or with the next renewal, in whatever order they were asked for.
+    store.take_back(store.find(6, 7));
+    store.take_back(slot);
+    store.take_back(slot);
+    ContactStore copy = store;
+    store.list_returned();
+    CHECK(list(store) == Pairs{{0, 1}, {0, 2}, {5, 9}, {6, 7}});
+    CHECK(renew(copy, {{0, 1}, {5, 9}, {6, 7}}) == Keys{pair_key(0, 2)});
+    CHECK(list(copy) == Pairs{{0, 1}, {5, 9}, {6, 7}});
+    CHECK(copy.find(5, 9) == slot);
+    CHECK(copy[slot].points[0].normal_force == 5);
+    CHECK(copy.find_pair(5, 9)->hint.kind == 3);
+    // Taken back and not renewed, it ends like any other.
+    CHECK(renew(store, {{0, 1}}) == Keys{pair_key(0, 2), pair_key(5, 9), pair_key(6, 7)});
+    CHECK(!store.has_contacts(9));
+}
+
+TEST_CASE("what was taken back can be removed before it is listed") {
+    ContactStore store;
+    renew(store, {{0, 1}, {5, 9}});
+    renew(store, {{0, 1}}, 5);
+    store.take_back(store.find(5, 9));
+    int removed = 0;
+    store.remove_if([](const PairRecord& pair) { return pair.shape_b == 9; },
+                    [&](std::uint32_t) { ++removed; });
+    CHECK(removed == 1);
+    CHECK(store.find(5, 9) == ContactStore::none);
+    CHECK(list(store) == Pairs{{0, 1}});
 }
 
 TEST_CASE("an impulse follows its feature, wherever the point stands in the list") {

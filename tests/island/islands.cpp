@@ -103,6 +103,12 @@ void check_against(const Islands& islands, const Reference& reference) {
         if (bodies.size() == 1) CHECK(!islands.may_have_parted(i));
     }
     CHECK(count == reference.bodies.size());
+    CHECK(count == islands.body_count());
+    std::set<std::uint32_t> places;
+    for (const std::uint32_t body : reference.bodies) {
+        CHECK(islands.place_of(body) < islands.place_end());
+        CHECK(places.insert(islands.place_of(body)).second);
+    }
 }
 
 }  // namespace

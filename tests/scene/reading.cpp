@@ -40,7 +40,8 @@ TEST_CASE("absent keys mean the format's defaults") {
     CHECK(scene.world.step.solver == Solver::SoftStep);
     CHECK(scene.world.step.narrow_phase == NarrowPhase::Sat);
     CHECK(scene.world.step.broad_phase == BroadPhase::Tree);
-    CHECK(scene.sleeping);
+    CHECK(scene.world.sleeping);
+    CHECK(scene.world.sleep_time == 0.5f);
     CHECK(scene.continuous);
     CHECK(scene.camera.eye == Vec3{8, 5, 8});
     CHECK(scene.camera.target == Vec3{0, 1, 0});

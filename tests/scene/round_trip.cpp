@@ -68,7 +68,7 @@ TEST_CASE("every built-in scene, written and read, is the same scene with the sa
 TEST_CASE("a scene with every field of the format, written and read, is the same") {
     const std::string text =
         R"({"cairn": 1, "name": "all \"of\" it\n", "description": "Ä ∂", "duration": 3.25,
-      "world": {"gravity": [0.1, -0.2, -0.0], "sleeping": false, "continuous": false, "restitution_threshold": 0.3},
+      "world": {"gravity": [0.1, -0.2, -0.0], "sleeping": false, "sleep_time": 0.25, "continuous": false, "restitution_threshold": 0.3},
       "step": {"dt": 0.0123456789012345678, "solver": "xpbd", "substeps": 7, "iterations": 3,
                "narrow_phase": "gjk-epa", "broad_phase": "brute-force"},
       "materials": {"ice": {"friction": 0.02, "restitution": 0.1, "rolling_friction": 0.3,
