@@ -17,6 +17,7 @@ World make_world(bool reuse, Solver solver) {
     WorldSettings settings;
     settings.step.solver = solver;
     settings.step.reuse_contacts = reuse;
+    settings.sleeping = false;
     return *World::create(settings);
 }
 
