@@ -93,12 +93,12 @@ public:
     /// The force and torque that act in every step, as in BodyDef.
     Status set_constant_force(BodyId body, const Vec3& force, const Vec3& torque);
 
-    /// Whether a body takes part in the step: a dynamic one that is not asleep, a kinematic one that
-    /// moves.
+    /// Whether a body takes part in the step: a dynamic one that is not asleep, a kinematic one
+    /// that moves.
     bool is_awake(BodyId body) const;
     /// Wakes the body and all that it is in touch with, or puts them to sleep at once: all of them
-    /// stop. Does nothing to static and kinematic bodies. Whatever else is done to a body or to what
-    /// it touches wakes it by itself.
+    /// stop. Does nothing to static and kinematic bodies. Whatever else is done to a body or to
+    /// what it touches wakes it by itself.
     Status set_awake(BodyId body, bool awake);
     Status set_can_sleep(BodyId body, bool can_sleep);
 

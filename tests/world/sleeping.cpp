@@ -276,7 +276,8 @@ TEST_CASE("whatever is done to a sleeping body wakes its pile, and doing nothing
         {"set_awake", [&] { return world.set_awake(body, true); }},
     };
     for (const auto& [name, change] : changes) {
-        CAPTURE(name);
+        const std::string call = name;
+        CAPTURE(call);
         REQUIRE(step_until_asleep(world, body) >= 0);
         step(world, 2);
         const World before = world;

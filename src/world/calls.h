@@ -1,0 +1,35 @@
+#pragma once
+// What every call of the public face begins with: does the id name something, and who is told if
+// not.
+
+#include <string>
+
+#include "world/world_state.h"
+
+namespace cairn {
+
+inline Error stale(const char* call, const char* kind) {
+    return {ErrorCode::InvalidId, std::string(call) + ": the id names no " + kind +
+                                      " of this world; allowed: the id of one that exists"};
+}
+
+inline Error tell(const WorldState& world, Error error) {
+    if (world.on_error) world.on_error(error);
+    return error;
+}
+
+inline Error tell(const WorldState& world, const char* call, const Error& refusal) {
+    return tell(world, {refusal.code, std::string(call) + ": " + refusal.message});
+}
+
+inline bool names(const WorldState& world, BodyId id) {
+    return id.index < world.bodies.size() && world.bodies[id.index].alive &&
+           world.bodies[id.index].generation == id.generation;
+}
+
+inline bool names(const WorldState& world, ShapeId id) {
+    return id.index < world.shapes.size() && world.shapes[id.index].alive &&
+           world.shapes[id.index].generation == id.generation;
+}
+
+}  // namespace cairn
