@@ -270,7 +270,7 @@ void advance(WorldState& world, Team& team, double dt) {
     before.clear();
     for (const std::uint32_t slot : world.scratch.moving) before.push_back(world.motions[slot]);
     const StepSettings& step = world.settings.step;
-    const StepProblem problem = {
+    StepProblem problem = {
         .motions = world.motions,
         .inertias = world.inertias,
         .drives = world.drives,
@@ -287,7 +287,18 @@ void advance(WorldState& world, Team& team, double dt) {
         .lanes = step.lanes,
         .team = &team,
     };
+    DenseBodies& dense = world.scratch.dense;
+    const bool is_dense = DenseBodies::pays(world);
+    if (is_dense) {
+        dense.gather(world);
+        problem.motions = dense.motions;
+        problem.inertias = dense.inertias;
+        problem.drives = dense.drives;
+        problem.heights = dense.heights;
+        problem.moving = dense.moving;
+    }
     std::visit([&](auto& method) { method.advance(problem); }, world.solver);
+    if (is_dense) dense.scatter(world);
 }
 
 // Reads displacements; writes positions. A body whose numbers went wrong goes back to the step's

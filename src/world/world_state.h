@@ -15,6 +15,7 @@
 #include "constraint/step_problem.h"
 #include "contact/contact_store.h"
 #include "solver/solver.h"
+#include "world/dense_bodies.h"
 #include "world/rest_state.h"
 
 namespace cairn {
@@ -110,6 +111,7 @@ struct WorldState {
         std::vector<std::uint32_t> active;
         std::vector<BodyMotion> before;
         std::vector<float> heights;
+        DenseBodies dense;
     } scratch;
 };
 
