@@ -119,6 +119,7 @@ EngineDescription describe_engine() {
 MadeEngine make_engine(const BenchScene& scene, const EngineRequest& request) {
     WorldSettings settings;
     settings.gravity = {0, static_cast<float>(-scene.gravity), 0};
+    settings.sleeping = scene.may_sleep;
     for (const Variant& variant : variants) {
         if (variant.name == request.variant) settings.step.solver = variant.solver;
     }

@@ -148,7 +148,8 @@ void print_summary(std::FILE* out, const BuiltWorld& built, const RunPlan& plan,
     fmt::print(out, "{}\n", plan.scene.name);
     fmt::print(out, "  settings     {}\n", scene::describe_settings(plan.scene));
     fmt::print(out, "  simulated    {:.4g} s in {} steps\n", simulated, record.step_ms.size());
-    fmt::print(out, "  bodies       {}\n", built.names.size());
+    fmt::print(out, "  bodies       {}, of which {} sleep at the end\n", built.names.size(),
+               world.last_step().asleep_count);
     fmt::print(out, "  contacts     {} pairs, {} points\n", contacts.size(), point_count);
     fmt::print(
         out, "  a step       {:.3g} ms (median {:.3g}, 95% {:.3g}, longest {:.3g}), {} thread{}\n",
