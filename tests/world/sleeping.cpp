@@ -346,6 +346,42 @@ TEST_CASE("a lift that starts wakes what stands on it, and while it moves nothin
     }
 }
 
+TEST_CASE("what lies still on ground that slides away below it does not sleep") {
+    World world = make_world();
+    const BodyId belt = *world.create_body(
+        {.kind = BodyKind::Kinematic,
+         .position = {0, -1, 0},
+         .linear_velocity = {0.5f, 0, 0},
+         .shapes = {{.geometry = Box{{100, 1, 100}}, .material = {.friction = 0}}}});
+    const BodyId box = add_box(world, {0, 0.5, 0});
+    for (int i = 0; i < 200; ++i) {
+        step(world, 1);
+        CHECK(!world.state(box).asleep);
+    }
+    CHECK(std::abs(world.position(box).x) < 1e-4);
+    REQUIRE(world.set_linear_velocity(belt, {}).ok());
+    CHECK(step_until_asleep(world, box) >= 0);
+}
+
+TEST_CASE("a tower wakes under another solver and a shorter step, and stands as before") {
+    for (const Solver solver : solvers) {
+        CAPTURE(int(solver));
+        World world = make_world();
+        add_ground(world);
+        const auto tower = add_tower(world, 0, 5);
+        REQUIRE(step_until_asleep(world, tower[0]) >= 0);
+        step(world, 2);
+        const Position top = world.position(tower[4]);
+        WorldSettings settings = world.settings();
+        settings.step.solver = solver;
+        REQUIRE(world.set_settings(settings).ok());
+        REQUIRE(world.set_awake(tower[0], true).ok());
+        for (int i = 0; i < 600; ++i) REQUIRE(world.step(1.0 / 600).ok());
+        CHECK(world.contacts().size() == 5);
+        CHECK(distance(world.position(tower[4]), top) < 1e-3);
+    }
+}
+
 TEST_CASE("a static body put into a sleeping one, or a new one made there, wakes it") {
     World world = make_world();
     add_ground(world);
