@@ -168,13 +168,14 @@ void solve_normals(const ContactRows& rows, float softness, std::array<float, 4>
 void push_apart(const ContactRows& row, const std::array<float, 4>& impulses, BodyMotion& a,
                 BodyMotion& b, const Response& response_a, const Response& response_b) {
     float sum = 0;
+    Vec3 spin_a, spin_b;
     for (std::size_t i = 0; i < std::size_t(row.point_count); ++i) {
         sum += impulses[i];
-        a.angular_velocity -= impulses[i] * row.points[i].spin_a;
-        b.angular_velocity += impulses[i] * row.points[i].spin_b;
+        spin_a += impulses[i] * row.points[i].spin_a;
+        spin_b += impulses[i] * row.points[i].spin_b;
     }
-    a.linear_velocity -= multiply(response_a.inverse_mass, sum * row.normal);
-    b.linear_velocity += multiply(response_b.inverse_mass, sum * row.normal);
+    push_body(a, response_a, -1, sum * row.normal, spin_a);
+    push_body(b, response_b, 1, sum * row.normal, spin_b);
 }
 
 void share_evenly(const ContactRows& rows, std::array<float, 4>& loads) {

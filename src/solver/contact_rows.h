@@ -69,12 +69,32 @@ inline Vec3 relative_velocity(const BodyMotion& a, Vec3 r_a, const BodyMotion& b
            (a.linear_velocity + cross(a.angular_velocity, r_a));
 }
 
+// What cannot be pushed is not written to: nothing times what is not a number would not be nothing,
+// and everything else in touch with the ground would go the same way.
+inline bool is_pushed(const Response& response) {
+    const SymmetricMat3& m = response.inverse_inertia;
+    return response.inverse_mass != Vec3{} || m.xx != 0 || m.yy != 0 || m.zz != 0;
+}
+
+// Changes one body's velocity by an impulse at r and a turning impulse; `sign` is -1 for body A.
+inline void push_body(BodyMotion& body, const Response& response, float sign, Vec3 impulse,
+                      Vec3 spin) {
+    if (!is_pushed(response)) return;
+    body.linear_velocity += sign * multiply(response.inverse_mass, impulse);
+    body.angular_velocity += sign * spin;
+}
+
 inline void apply_impulse(BodyMotion& a, const Response& response_a, Vec3 r_a, BodyMotion& b,
                           const Response& response_b, Vec3 r_b, Vec3 impulse) {
-    a.linear_velocity -= multiply(response_a.inverse_mass, impulse);
-    a.angular_velocity -= response_a.inverse_inertia * cross(r_a, impulse);
-    b.linear_velocity += multiply(response_b.inverse_mass, impulse);
-    b.angular_velocity += response_b.inverse_inertia * cross(r_b, impulse);
+    push_body(a, response_a, -1, impulse, response_a.inverse_inertia * cross(r_a, impulse));
+    push_body(b, response_b, 1, impulse, response_b.inverse_inertia * cross(r_b, impulse));
+}
+
+// Equal and opposite turning impulses.
+inline void apply_twist(BodyMotion& a, const Response& response_a, BodyMotion& b,
+                        const Response& response_b, Vec3 twist) {
+    push_body(a, response_a, -1, {}, response_a.inverse_inertia * twist);
+    push_body(b, response_b, 1, {}, response_b.inverse_inertia * twist);
 }
 
 inline Vec3 without_normal(Vec3 v, Vec3 n) { return v - dot(v, n) * n; }

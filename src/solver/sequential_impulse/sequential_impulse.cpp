@@ -19,6 +19,13 @@ constexpr float largest_correction_share = 0.1f;
 
 float slop(const ContactRows& row) { return slop_share * row.size; }
 
+// A push on positions; see push_body.
+void move_body(BodyMotion& body, const Response& response, float sign, Vec3 push, Vec3 r) {
+    if (!is_pushed(response)) return;
+    body.displacement += sign * multiply(response.inverse_mass, push);
+    body.rotation = turn(body.rotation, sign * (response.inverse_inertia * cross(r, push)));
+}
+
 }  // namespace
 
 void SequentialImpulse::advance(const StepProblem& problem) {
@@ -124,8 +131,7 @@ void SequentialImpulse::apply(const StepProblem& problem, const ContactRows& row
                       impulses.normal[i] * row.normal + impulses.friction[i]);
     }
     const Vec3 twist = impulses.rolling + impulses.spinning * row.normal;
-    a.angular_velocity -= response_a.inverse_inertia * twist;
-    b.angular_velocity += response_b.inverse_inertia * twist;
+    apply_twist(a, response_a, b, response_b, twist);
 }
 
 void SequentialImpulse::warm_start(const StepProblem& problem) {
@@ -161,8 +167,7 @@ void SequentialImpulse::solve_velocities(const StepProblem& problem, float h, bo
             const float most = row.spinning_friction * load;
             const float spinning = clamp(sum.spinning - row.spinning_mass * dot(n, w), -most, most);
             const Vec3 twist = (rolling - sum.rolling) + (spinning - sum.spinning) * n;
-            a.angular_velocity -= response_a.inverse_inertia * twist;
-            b.angular_velocity += response_b.inverse_inertia * twist;
+            apply_twist(a, response_a, b, response_b, twist);
             sum.rolling = rolling;
             sum.spinning = spinning;
         }
@@ -204,15 +209,8 @@ void SequentialImpulse::correct_positions(const StepProblem& problem) {
                 const float wanted =
                     min(correction_share * excess, largest_correction_share * row.size);
                 const Vec3 push = (wanted * p.normal_mass) * row.normal;
-                a.displacement -= multiply(response_a.inverse_mass, push);
-                b.displacement += multiply(response_b.inverse_mass, push);
-                if (response_a.inverse_mass != Vec3{}) {
-                    a.rotation =
-                        turn(a.rotation, -(response_a.inverse_inertia * cross(p.r_a, push)));
-                }
-                if (response_b.inverse_mass != Vec3{}) {
-                    b.rotation = turn(b.rotation, response_b.inverse_inertia * cross(p.r_b, push));
-                }
+                move_body(a, response_a, -1, push, p.r_a);
+                move_body(b, response_b, 1, push, p.r_b);
             }
         }
         if (!corrected) return;

@@ -156,15 +156,22 @@ void Xpbd::correct_positions(const StepProblem& problem, float h) {
         solve_normals(row, compliance, c, sum.normal);
         sum.gap = c;
         float total = 0;
+        Vec3 spin_a, spin_b;
         for (std::size_t i = 0; i < std::size_t(row.point_count); ++i) {
             const PointRow& p = row.points[i];
             const float change = sum.normal[i] - before[i];
-            a.angular -= change * p.spin_a;
-            b.angular += change * p.spin_b;
+            spin_a += change * p.spin_a;
+            spin_b += change * p.spin_b;
             total += change;
         }
-        a.linear -= multiply(response_a.inverse_mass, total * n);
-        b.linear += multiply(response_b.inverse_mass, total * n);
+        if (is_pushed(response_a)) {
+            a.linear -= multiply(response_a.inverse_mass, total * n);
+            a.angular -= spin_a;
+        }
+        if (is_pushed(response_b)) {
+            b.linear += multiply(response_b.inverse_mass, total * n);
+            b.angular += spin_b;
+        }
     }
 }
 
@@ -295,8 +302,7 @@ void Xpbd::rub_turning(const StepProblem& problem, std::size_t k, float h) {
     const Vec3 twist = (1.0f / h) * ((rolling - sum.rolling) + (spinning - sum.spinning) * n);
     sum.rolling = rolling;
     sum.spinning = spinning;
-    a.angular_velocity -= responses_[row.body_a].inverse_inertia * twist;
-    b.angular_velocity += responses_[row.body_b].inverse_inertia * twist;
+    apply_twist(a, responses_[row.body_a], b, responses_[row.body_b], twist);
 }
 
 void Xpbd::store_impulses(const StepProblem& problem, float h, bool first) {
