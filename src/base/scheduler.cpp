@@ -37,6 +37,8 @@ void run_alone(const TeamStage& stage) {
 
 class Scheduler {
 public:
+    std::atomic<int> holders = 0;
+
     explicit Scheduler(const Threads& threads)
         : board_(threads.count),
           host_(threads),
@@ -144,19 +146,17 @@ Result<SharedScheduler> make_scheduler(const Threads& threads) {
     }
     if (threads.count <= 1) return SharedScheduler();
     if (threads.run == nullptr && CAIRN_THREADS == 0) return SharedScheduler();
-    return SharedScheduler(std::make_shared<Scheduler>(threads));
+    return SharedScheduler(new Scheduler(threads));
 }
 
-// Here rather than in the header, where a user's sanitizer would look for the run-time types that
-// this library is built without.
-SharedScheduler::SharedScheduler() noexcept = default;
-SharedScheduler::SharedScheduler(std::shared_ptr<Scheduler> scheduler) noexcept
-    : scheduler_(std::move(scheduler)) {}
-SharedScheduler::SharedScheduler(const SharedScheduler&) noexcept = default;
-SharedScheduler::SharedScheduler(SharedScheduler&&) noexcept = default;
-SharedScheduler& SharedScheduler::operator=(const SharedScheduler&) noexcept = default;
-SharedScheduler& SharedScheduler::operator=(SharedScheduler&&) noexcept = default;
-SharedScheduler::~SharedScheduler() = default;
+void SharedScheduler::hold() const noexcept {
+    if (scheduler_) scheduler_->holders.fetch_add(1, std::memory_order_relaxed);
+}
+
+void SharedScheduler::let_go() const noexcept {
+    if (scheduler_ && scheduler_->holders.fetch_sub(1, std::memory_order_acq_rel) == 1)
+        delete scheduler_;
+}
 
 Team::Team(const SharedScheduler& scheduler) {
     if (!scheduler || !scheduler.get()->open()) return;

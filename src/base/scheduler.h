@@ -17,8 +17,8 @@
 
 #include <cassert>
 #include <cstdint>
-#include <memory>
 #include <span>
+#include <utility>
 
 #include "base/function_ref.h"
 #include "cairn/result.h"
@@ -47,22 +47,33 @@ struct TeamStage {
 class Scheduler;
 
 // A scheduler that worlds share: their copies, too, hold the same. It ends with the last of its
-// holders. Empty where there is none but the caller's thread.
+// holders. Empty where there is none but the caller's thread. It counts by itself: of the
+// standard's pointer a program may bring functions that look for run-time types, which this library
+// has not.
 class SharedScheduler {
 public:
-    SharedScheduler() noexcept;
-    explicit SharedScheduler(std::shared_ptr<Scheduler> scheduler) noexcept;
-    SharedScheduler(const SharedScheduler& other) noexcept;
-    SharedScheduler(SharedScheduler&& other) noexcept;
-    SharedScheduler& operator=(const SharedScheduler& other) noexcept;
-    SharedScheduler& operator=(SharedScheduler&& other) noexcept;
-    ~SharedScheduler();
+    SharedScheduler() noexcept = default;
+    // Takes the scheduler over.
+    explicit SharedScheduler(Scheduler* scheduler) noexcept : scheduler_(scheduler) { hold(); }
+    SharedScheduler(const SharedScheduler& other) noexcept : scheduler_(other.scheduler_) {
+        hold();
+    }
+    SharedScheduler(SharedScheduler&& other) noexcept
+        : scheduler_(std::exchange(other.scheduler_, nullptr)) {}
+    SharedScheduler& operator=(SharedScheduler other) noexcept {
+        std::swap(scheduler_, other.scheduler_);
+        return *this;
+    }
+    ~SharedScheduler() { let_go(); }
 
-    Scheduler* get() const { return scheduler_.get(); }
+    Scheduler* get() const { return scheduler_; }
     explicit operator bool() const { return get() != nullptr; }
 
 private:
-    std::shared_ptr<Scheduler> scheduler_;
+    void hold() const noexcept;
+    void let_go() const noexcept;
+
+    Scheduler* scheduler_ = nullptr;
 };
 
 // The scheduler for these threads; empty where they are none but the caller's. An error for a count

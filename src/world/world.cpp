@@ -169,7 +169,7 @@ Status World::set_settings(const WorldSettings& settings) {
 Status World::set_threads(const Threads& threads) {
     Result<SharedScheduler> scheduler = make_scheduler(threads);
     if (!scheduler) return tell(*state_, "set_threads", scheduler.error());
-    state_->scheduler = std::move(*scheduler);
+    state_->scheduler = *scheduler;
     return Done{};
 }
 
