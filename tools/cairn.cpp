@@ -79,7 +79,7 @@ void add_run_options(CLI::App& app, tool::RunCommand& run) {
     app.add_option("--substeps", options.substeps, "substeps a step, 1 to 1000");
     app.add_option("--iterations", options.iterations, "iterations a substep, 1 to 1000");
     app.add_option("--narrow-phase", options.narrow_phase, "sat or gjk-epa");
-    app.add_option("--broad-phase", options.broad_phase, "brute-force");
+    app.add_option("--broad-phase", options.broad_phase, "tree or brute-force");
     app.add_option("--threads", run.threads,
                    "how many threads may share a step's work; never changes a result");
     app.add_option("--lanes", run.lanes,
