@@ -8,7 +8,8 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
+
+#include "base/large_array.h"
 
 namespace cairn {
 
@@ -68,7 +69,7 @@ private:
         entries_[i] = entry;
     }
     void grow() {
-        std::vector<Entry> old(entries_.empty() ? 64 : 2 * entries_.size());
+        LargeArray<Entry> old(entries_.empty() ? 64 : 2 * entries_.size());
         old.swap(entries_);
         shift_ = 64 - std::bit_width(mask());
         for (const Entry& entry : old) {
@@ -76,7 +77,7 @@ private:
         }
     }
 
-    std::vector<Entry> entries_;
+    LargeArray<Entry> entries_;
     std::size_t size_ = 0;
     int shift_ = 63;
 };

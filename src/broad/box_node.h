@@ -12,8 +12,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <vector>
 
+#include "base/large_array.h"
 #include "math/aabb.h"
 
 namespace cairn {
@@ -38,7 +38,7 @@ struct alignas(64) BoxNode {
 
 // Room for `size` elements, at most an eighth more than needed: for arrays of a million.
 template <class Element>
-void reserve_sparingly(std::vector<Element>& elements, std::size_t size) {
+void reserve_sparingly(LargeArray<Element>& elements, std::size_t size) {
     if (size > elements.capacity())
         elements.reserve(std::max(size, elements.capacity() + elements.capacity() / 8 + 16));
 }

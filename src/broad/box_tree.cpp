@@ -250,7 +250,7 @@ std::uint32_t BoxTree::mark(std::uint32_t id) {
     return before == 0 ? node : none;
 }
 
-void BoxTree::list_leaves(std::vector<std::uint32_t>& ids) const {
+void BoxTree::list_leaves(LargeArray<std::uint32_t>& ids) const {
     query(whole_space, [&](std::uint32_t id) { ids.push_back(id); });
 }
 

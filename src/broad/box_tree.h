@@ -19,8 +19,8 @@
 #include <bit>
 #include <span>
 #include <utility>
-#include <vector>
 
+#include "base/large_array.h"
 #include "broad/box_node.h"
 
 namespace cairn {
@@ -46,7 +46,7 @@ public:
     template <class Visit>
     void query(const Aabb& box, Visit&& visit) const;
     // Ids of all leaves, in the order of the tree.
-    void list_leaves(std::vector<std::uint32_t>& ids) const;
+    void list_leaves(LargeArray<std::uint32_t>& ids) const;
 
     // visit(id, other) for every leaf `other` whose box overlaps that of a marked leaf `id` of
     // `seekers`, a node of leaves of this tree or another. Of two marked leaves of this tree only
@@ -100,14 +100,14 @@ private:
     void dissolve_loose(std::span<const Aabb> boxes);
     void dissolve(std::uint32_t node);
 
-    std::vector<BoxNode> nodes_;
-    std::vector<std::uint32_t> places_;  // by id: 8 node + slot
+    LargeArray<BoxNode> nodes_;
+    LargeArray<std::uint32_t> places_;  // by id: 8 node + slot
     std::uint32_t root_ = none;
     std::uint32_t free_ = none;
     std::uint32_t size_ = 0;
     std::uint32_t worn_ = 0;  // leaves put in again since the last build()
     // Nodes of leaves below which something has moved, and room that settle() uses again.
-    std::vector<std::uint32_t> dirty_, dirty_above_, loose_;
+    LargeArray<std::uint32_t> dirty_, dirty_above_, loose_;
 };
 
 template <class Visit>

@@ -108,7 +108,7 @@ void BoxTree::build(std::span<const std::uint32_t> ids, std::span<const Aabb> bo
     free_all();
     if (ids.empty()) return;
     std::uint32_t end = 0;
-    std::vector<Point> points;
+    LargeArray<Point> points;
     points.reserve(ids.size());
     for (const std::uint32_t id : ids) {
         end = std::max(end, id + 1);

@@ -13,7 +13,7 @@ constexpr std::size_t block = 64;
 
 }  // namespace
 
-void BruteForce::find_pairs(std::span<const Proxy> proxies, std::vector<Pair>& pairs) {
+void BruteForce::find_pairs(std::span<const Proxy> proxies, LargeArray<Pair>& pairs) {
     pairs.clear();
     const std::size_t count = proxies.size();
     const auto spread = [&](std::vector<float>& face, auto&& value) {

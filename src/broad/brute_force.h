@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "base/large_array.h"
 #include "broad/proxy.h"
 
 namespace cairn {
@@ -13,7 +14,7 @@ class BruteForce {
 public:
     // Replaces `pairs` by all pairs of overlapping boxes, sorted. The proxies come in ascending
     // order of id.
-    void find_pairs(std::span<const Proxy> proxies, std::vector<Pair>& pairs);
+    void find_pairs(std::span<const Proxy> proxies, LargeArray<Pair>& pairs);
 
 private:
     // The boxes side by side, one array a face, so that a compiler tests several at once.

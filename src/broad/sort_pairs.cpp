@@ -16,7 +16,7 @@ constexpr std::uint32_t digit_count = 1u << digit_bits;
 constexpr std::size_t few = 512;
 
 template <std::uint32_t Pair::*id>
-void sort_by_digit(std::vector<Pair>& pairs, std::vector<Pair>& room, int shift) {
+void sort_by_digit(LargeArray<Pair>& pairs, LargeArray<Pair>& room, int shift) {
     const auto digit = [shift](const Pair& pair) {
         return (pair.*id >> shift) & (digit_count - 1);
     };
@@ -34,7 +34,7 @@ void sort_by_digit(std::vector<Pair>& pairs, std::vector<Pair>& room, int shift)
 
 }  // namespace
 
-void sort_pairs(std::vector<Pair>& pairs, std::vector<Pair>& room) {
+void sort_pairs(LargeArray<Pair>& pairs, LargeArray<Pair>& room) {
     if (pairs.size() < few) {
         std::sort(pairs.begin(), pairs.end());
         return;

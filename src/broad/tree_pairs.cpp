@@ -89,7 +89,7 @@ bool TreePairs::insert_many(std::span<const Proxy> proxies) {
     marked_.reserve(marked_.size() + proxies.size());
 
     bool all_valid = true;
-    std::vector<std::uint32_t> ids[2];
+    LargeArray<std::uint32_t> ids[2];
     for (const Proxy& proxy : proxies) {
         if (!is_valid(proxy.box) || is_there(proxy.id)) {
             all_valid = false;
@@ -108,7 +108,7 @@ void TreePairs::build_or_insert(bool moves, std::span<const std::uint32_t> ids) 
         for (const std::uint32_t id : ids) tree.insert(id, boxes_[id]);
         return;
     }
-    std::vector<std::uint32_t> all;
+    LargeArray<std::uint32_t> all;
     all.reserve(tree.size() + ids.size());
     tree.list_leaves(all);
     all.insert(all.end(), ids.begin(), ids.end());
@@ -158,7 +158,7 @@ std::size_t TreePairs::prepare_search() {
     return searches_.size();
 }
 
-void TreePairs::search(std::size_t begin, std::size_t end, std::vector<Pair>& pairs) const {
+void TreePairs::search(std::size_t begin, std::size_t end, LargeArray<Pair>& pairs) const {
     for (std::size_t i = begin; i < end; ++i) {
         const Search& sought = searches_[i];
         if (sought.is_endless) {
@@ -169,7 +169,7 @@ void TreePairs::search(std::size_t begin, std::size_t end, std::vector<Pair>& pa
     }
 }
 
-void TreePairs::search_node(const BoxNode& node, bool moves, std::vector<Pair>& pairs) const {
+void TreePairs::search_node(const BoxNode& node, bool moves, LargeArray<Pair>& pairs) const {
     using Marked = BoxTree::Marked;
     const auto meet = [&](std::uint32_t a, std::uint32_t b) { pairs.push_back(make_sorted(a, b)); };
     if (moves) trees_[false].meet(node, Marked::All, meet);
@@ -185,7 +185,7 @@ void TreePairs::search_node(const BoxNode& node, bool moves, std::vector<Pair>& 
     }
 }
 
-void TreePairs::search_endless(std::uint32_t id, std::vector<Pair>& pairs) const {
+void TreePairs::search_endless(std::uint32_t id, LargeArray<Pair>& pairs) const {
     const Aabb& box = boxes_[id];
     const auto meet = [&](std::uint32_t other) { pairs.push_back(make_sorted(id, other)); };
     for (const bool others_move : {false, true}) {
@@ -198,7 +198,7 @@ void TreePairs::search_endless(std::uint32_t id, std::vector<Pair>& pairs) const
     }
 }
 
-void TreePairs::finish_search(std::vector<Pair>& pairs) {
+void TreePairs::finish_search(LargeArray<Pair>& pairs) {
     sort_pairs(pairs, sorting_);
     for (const Search& sought : searches_) {
         if (!sought.is_endless) trees_[sought.moves].unmark_node(sought.index);
@@ -208,7 +208,7 @@ void TreePairs::finish_search(std::vector<Pair>& pairs) {
     marked_.clear();
 }
 
-void TreePairs::find_new_pairs(std::vector<Pair>& pairs) {
+void TreePairs::find_new_pairs(LargeArray<Pair>& pairs) {
     pairs.clear();
     const std::size_t count = prepare_search();
     search(0, count, pairs);

@@ -15,8 +15,8 @@
 
 #include <array>
 #include <span>
-#include <vector>
 
+#include "base/large_array.h"
 #include "broad/box_tree.h"
 #include "broad/proxy.h"
 
@@ -56,15 +56,15 @@ public:
 
     // Replaces `pairs` by all pairs of which at least one is new, escaped or changed its tree
     // since the last call. Sorted, unique. Then forgets the marks.
-    void find_new_pairs(std::vector<Pair>& pairs);
+    void find_new_pairs(LargeArray<Pair>& pairs);
 
     // The same in three parts, for threads: prepare_search() tells the number of searches;
     // search() appends to `pairs` what a range of them finds, for any ranges in any order and
     // side by side; finish_search() sorts what they found together. Nothing may be changed in
     // between.
     std::size_t prepare_search();
-    void search(std::size_t begin, std::size_t end, std::vector<Pair>& pairs) const;
-    void finish_search(std::vector<Pair>& pairs);
+    void search(std::size_t begin, std::size_t end, LargeArray<Pair>& pairs) const;
+    void finish_search(LargeArray<Pair>& pairs);
 
     // visit(id) for every id whose fat box overlaps.
     template <class Visit>
@@ -91,16 +91,16 @@ private:
     void take_out(std::uint32_t id);
     void mark(std::uint32_t id);
     void build_or_insert(bool moves, std::span<const std::uint32_t> ids);
-    void search_node(const BoxNode& node, bool moves, std::vector<Pair>& pairs) const;
-    void search_endless(std::uint32_t id, std::vector<Pair>& pairs) const;
+    void search_node(const BoxNode& node, bool moves, LargeArray<Pair>& pairs) const;
+    void search_endless(std::uint32_t id, LargeArray<Pair>& pairs) const;
 
     std::array<BoxTree, 2> trees_;                       // of what stands still, of what moves
     std::array<std::vector<std::uint32_t>, 2> endless_;  // likewise
-    std::vector<Aabb> boxes_;                            // by id
-    std::vector<std::uint8_t> states_;                   // by id
-    std::vector<std::uint32_t> marked_;
-    std::vector<Search> searches_;
-    std::vector<Pair> sorting_;
+    LargeArray<Aabb> boxes_;                             // by id
+    LargeArray<std::uint8_t> states_;                    // by id
+    LargeArray<std::uint32_t> marked_;
+    LargeArray<Search> searches_;
+    LargeArray<Pair> sorting_;
 };
 
 template <class Visit>

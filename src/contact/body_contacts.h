@@ -7,7 +7,8 @@
 
 #include <array>
 #include <cstdint>
-#include <vector>
+
+#include "base/large_array.h"
 
 namespace cairn {
 
@@ -59,8 +60,8 @@ private:
     };
     End& at(std::uint32_t end) { return links_[end / 2][end % 2]; }
 
-    std::vector<std::array<End, 2>> links_;  // by slot
-    std::vector<std::uint32_t> firsts_;      // by body
+    LargeArray<std::array<End, 2>> links_;  // by slot
+    LargeArray<std::uint32_t> firsts_;      // by body
 };
 
 }  // namespace cairn

@@ -35,6 +35,13 @@ void ContactStore::renew(std::uint32_t shape_a, std::uint32_t shape_b) {
     }
 }
 
+void ContactStore::put_aside(const PairRecord& pair) {
+    if (asides_.size() < slots_.size()) asides_.resize(slots_.size());
+    listings_[pair.contact] = Listing::Aside;
+    asides_[pair.contact] = pair;
+    asides_by_key_.insert(key_of(pair), pair.contact);
+}
+
 void ContactStore::take_back(std::uint32_t slot) {
     if (listings_[slot] != Listing::Aside) return;
     listings_[slot] = Listing::Returning;
@@ -53,6 +60,7 @@ void ContactStore::list_returned() {
             pairs_.push_back(previous_[place]);
         pairs_.push_back(asides_[slot]);
         listings_[slot] = Listing::Listed;
+        asides_by_key_.remove(slots_[slot].key);
     }
     pairs_.insert(pairs_.end(), previous_.begin() + std::ptrdiff_t(place), previous_.end());
     returning_.clear();
@@ -64,8 +72,18 @@ const PairRecord* ContactStore::find_pair(std::uint32_t shape_a, std::uint32_t s
         pairs_.begin(), pairs_.end(), key,
         [](const PairRecord& pair, std::uint64_t wanted) { return key_of(pair) < wanted; });
     if (found != pairs_.end() && key_of(*found) == key) return &*found;
-    const std::uint32_t slot = table_.find(key);
-    return slot != none && is_aside(slot) ? &asides_[slot] : nullptr;
+    const std::uint32_t slot = asides_by_key_.find(key);
+    return slot != none ? &asides_[slot] : nullptr;
+}
+
+void ContactStore::make_room(std::size_t more) {
+    const std::size_t wanted = contact_count() + more;
+    if (wanted <= slots_.capacity()) return;
+    // Twice as much as before at least, so that a heap that grows is not copied every time.
+    const std::size_t room = std::max(wanted, 2 * slots_.size());
+    slots_.reserve(room);
+    sightings_.reserve(room);
+    listings_.reserve(room);
 }
 
 Contact& ContactStore::add_contact(PairRecord& pair, std::uint32_t body_a, std::uint32_t body_b) {
@@ -74,7 +92,6 @@ Contact& ContactStore::add_contact(PairRecord& pair, std::uint32_t body_a, std::
         slots_.emplace_back();
         sightings_.emplace_back();
         listings_.push_back(Listing::Listed);
-        asides_.emplace_back();
     }
     pair.contact = free_.back();
     free_.pop_back();
@@ -87,12 +104,10 @@ Contact& ContactStore::add_contact(PairRecord& pair, std::uint32_t body_a, std::
     contact.body_a = body_a;
     contact.body_b = body_b;
     by_body_.attach(pair.contact, body_a, body_b);
-    table_.insert(contact.key, pair.contact);
     return contact;
 }
 
 void ContactStore::remove_contact(PairRecord& pair) {
-    table_.remove(key_of(pair));
     by_body_.detach(pair.contact);
     free_.push_back(pair.contact);
     pair.contact = none;

@@ -1,7 +1,7 @@
 #pragma once
 // The pairs of shapes that may touch, in ascending order of their keys, and the contacts of those
-// that do: found by pair in constant time, in slots that do not move. A pair that ends leaves with
-// its contact. Most pairs have none, so what is kept of a pair is small.
+// that do, in slots that do not move: a step's pairs find theirs in one walk through both lists. A
+// pair that ends leaves with its contact. Most pairs have none, so what is kept of a pair is small.
 //
 // A contact that nobody looks at for the time being (both bodies rest) is put aside with its pair,
 // as it is, and costs nothing until it is taken back.
@@ -9,8 +9,8 @@
 #include <cstdint>
 #include <span>
 #include <utility>
-#include <vector>
 
+#include "base/large_array.h"
 #include "base/pair_table.h"
 #include "contact/body_contacts.h"
 #include "contact/contact.h"
@@ -28,7 +28,8 @@ struct PairRecord {
     std::uint32_t shape_a = 0, shape_b = 0;
     std::uint32_t contact = PairTable::none;  // its slot
     AxisHint hint;
-    bool meets = false;  // has contact points in this step
+    bool meets = false;     // has contact points in this step
+    bool is_found = false;  // and they are found anew
     // The shapes have stayed apart while the ways that the two bodies have gone together are less
     // than this (world/detect.h).
     double apart_until = -1;
@@ -63,17 +64,16 @@ public:
     // Put aside or not.
     const PairRecord* find_pair(std::uint32_t shape_a, std::uint32_t shape_b) const;
 
-    // Gives the pair a contact, as new, of these two bodies.
+    // Gives the pair a contact, as new, of these two bodies. Many at once want room for so many
+    // more first: what grows by and by is copied again and again.
     Contact& add_contact(PairRecord& pair, std::uint32_t body_a, std::uint32_t body_b);
+    void make_room(std::size_t more);
     void remove_contact(PairRecord& pair);
-    std::uint32_t find(std::uint32_t shape_a, std::uint32_t shape_b) const {
-        return table_.find(pair_key(shape_a, shape_b));
-    }
     std::span<Contact> slots() { return slots_; }
     Contact& operator[](std::uint32_t slot) { return slots_[slot]; }
     const Contact& operator[](std::uint32_t slot) const { return slots_[slot]; }
     FaceSighting& sighting(std::uint32_t slot) { return sightings_[slot]; }
-    std::size_t contact_count() const { return table_.size(); }
+    std::size_t contact_count() const { return slots_.size() - free_.size(); }
 
     // visit(slot) for each contact of the body, put aside or not.
     template <class Visit>
@@ -84,19 +84,19 @@ public:
 
 private:
     enum class Listing : std::uint8_t { Listed, Aside, Returning };
-    bool is_aside(std::uint32_t slot) const { return listings_[slot] != Listing::Listed; }
+    void put_aside(const PairRecord& pair);
 
-    std::vector<PairRecord> pairs_, previous_;
-    std::size_t place_ = 0;          // in previous_: what comes before has been renewed or ended
-    std::vector<PairRecord> ended_;  // with contacts
-    std::vector<Contact> slots_;
-    std::vector<FaceSighting> sightings_;  // likewise, and the next two
-    std::vector<Listing> listings_;
-    std::vector<PairRecord> asides_;        // of contacts that are not listed
-    std::vector<std::uint32_t> returning_;  // slots
+    LargeArray<PairRecord> pairs_, previous_;
+    std::size_t place_ = 0;         // in previous_: what comes before has been renewed or ended
+    LargeArray<PairRecord> ended_;  // with contacts
+    LargeArray<Contact> slots_;
+    LargeArray<FaceSighting> sightings_;  // likewise, and the next two
+    LargeArray<Listing> listings_;
+    LargeArray<PairRecord> asides_;        // of contacts that are not listed
+    PairTable asides_by_key_;              // their slots
+    LargeArray<std::uint32_t> returning_;  // slots
     BodyContacts by_body_;
-    std::vector<std::uint32_t> free_;
-    PairTable table_;
+    LargeArray<std::uint32_t> free_;
 };
 
 // Carries the impulses of `contact`'s points over to the new points where the feature is the same;
@@ -123,8 +123,7 @@ void ContactStore::end_renewal(IsIdle&& is_idle, OnEnd&& on_end) {
     }
     for (PairRecord& pair : ended_) {
         if (is_idle(std::as_const(slots_[pair.contact]))) {
-            listings_[pair.contact] = Listing::Aside;
-            asides_[pair.contact] = pair;
+            put_aside(pair);
             continue;
         }
         on_end(pair.contact);

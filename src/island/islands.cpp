@@ -12,7 +12,7 @@ namespace {
 // saves splits that find nothing, and costs time at every link of a crowded body.
 constexpr int most_looks = 8;
 
-std::uint32_t take_number(std::vector<std::uint32_t>& free, std::size_t size) {
+std::uint32_t take_number(LargeArray<std::uint32_t>& free, std::size_t size) {
     if (free.empty()) return std::uint32_t(size);
     const std::uint32_t number = free.back();
     free.pop_back();
@@ -98,7 +98,7 @@ void Islands::split(std::uint32_t island, std::vector<std::uint32_t>& parts) {
     // The largest stays, so that the fewest bodies are told a new number.
     const auto largest =
         std::uint32_t(std::max_element(sizes_.begin(), sizes_.end()) - sizes_.begin());
-    std::vector<std::uint32_t>& numbers = sizes_;
+    LargeArray<std::uint32_t>& numbers = sizes_;
     for (std::uint32_t part = 0; part < numbers.size(); ++part) {
         numbers[part] = part == largest ? island : make_island();
         if (part != largest) parts.push_back(numbers[part]);

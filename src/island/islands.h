@@ -16,7 +16,8 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
+
+#include "base/large_array.h"
 
 namespace cairn {
 
@@ -107,14 +108,14 @@ private:
     bool are_linked(std::uint32_t node_a, std::uint32_t node_b) const;
     void find_part(std::uint32_t from, std::uint32_t part);
 
-    std::vector<std::uint32_t> places_;  // node by body
-    std::vector<Node> nodes_;
-    std::vector<Link> links_;
-    std::vector<Island> islands_;
-    std::vector<std::uint32_t> free_nodes_, free_links_, free_islands_;
+    LargeArray<std::uint32_t> places_;  // node by body
+    LargeArray<Node> nodes_;
+    LargeArray<Link> links_;
+    LargeArray<Island> islands_;
+    LargeArray<std::uint32_t> free_nodes_, free_links_, free_islands_;
 
     // Room that split() uses again, of no meaning between its calls.
-    std::vector<std::uint32_t> members_, labels_, queue_, sizes_;
+    LargeArray<std::uint32_t> members_, labels_, queue_, sizes_;
 };
 
 }  // namespace cairn

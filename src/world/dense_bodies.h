@@ -7,8 +7,8 @@
 // the same to the bit either way.
 
 #include <cstdint>
-#include <vector>
 
+#include "base/large_array.h"
 #include "body/body.h"
 
 namespace cairn {
@@ -24,11 +24,11 @@ public:
     // Hands back what moved, and gives the contacts their bodies' slots.
     void scatter(WorldState& world) const;
 
-    std::vector<BodyMotion> motions;
-    std::vector<BodyInertia> inertias;
-    std::vector<BodyDrive> drives;
-    std::vector<float> heights;
-    std::vector<std::uint32_t> moving;  // places
+    LargeArray<BodyMotion> motions;
+    LargeArray<BodyInertia> inertias;
+    LargeArray<BodyDrive> drives;
+    LargeArray<float> heights;
+    LargeArray<std::uint32_t> moving;  // places
 
 private:
     bool is_listed(std::uint32_t body) const {
@@ -36,8 +36,8 @@ private:
     }
     void list(std::uint32_t body);
 
-    std::vector<std::uint32_t> slots_;   // by place
-    std::vector<std::uint32_t> places_;  // by slot; means something where slots_ agrees
+    LargeArray<std::uint32_t> slots_;   // by place
+    LargeArray<std::uint32_t> places_;  // by slot; means something where slots_ agrees
 };
 
 }  // namespace cairn

@@ -202,19 +202,19 @@ void find_new_pairs(WorldState& world, Team& team) {
     WorldState::Scratch& scratch = world.scratch;
     auto& parts = scratch.found_parts;
     parts.resize(std::size_t(team.worker_count()));
-    for (std::vector<Pair>& part : parts) part.clear();
+    for (LargeArray<Pair>& part : parts) part.clear();
     const std::size_t count = world.tree.prepare_search();
     team.for_range(int(count), searches_a_block, [&](int begin, int end, int worker) {
         world.tree.search(std::size_t(begin), std::size_t(end), parts[std::size_t(worker)]);
     });
     // Sorted at the end, so that it does not matter who found what.
     scratch.found_pairs.clear();
-    for (const std::vector<Pair>& part : parts)
+    for (const LargeArray<Pair>& part : parts)
         scratch.found_pairs.insert(scratch.found_pairs.end(), part.begin(), part.end());
     world.tree.finish_search(scratch.found_pairs);
 }
 
-void find_tree_pairs(WorldState& world, Team& team, std::vector<Pair>& pairs) {
+void find_tree_pairs(WorldState& world, Team& team, LargeArray<Pair>& pairs) {
     WorldState::Scratch& scratch = world.scratch;
     find_new_pairs(world, team);
     auto& found = scratch.found_pairs;
@@ -238,7 +238,7 @@ void find_tree_pairs(WorldState& world, Team& team, std::vector<Pair>& pairs) {
 
 }  // namespace
 
-void find_step_pairs(WorldState& world, Team& team, double dt, std::vector<Pair>& pairs) {
+void find_step_pairs(WorldState& world, Team& team, double dt, LargeArray<Pair>& pairs) {
     update_boxes(world, team, float(dt));
     if (world.settings.step.broad_phase == BroadPhase::Tree)
         return find_tree_pairs(world, team, pairs);
@@ -253,7 +253,7 @@ void find_step_pairs(WorldState& world, Team& team, double dt, std::vector<Pair>
     std::erase_if(pairs, [&](const Pair& pair) { return !may_touch(world, pair); });
 }
 
-void find_present_pairs(const WorldState& world, double dt, std::vector<Pair>& pairs) {
+void find_present_pairs(const WorldState& world, double dt, LargeArray<Pair>& pairs) {
     std::vector<Proxy> proxies;
     for (std::uint32_t slot = 0; slot < world.shapes.size(); ++slot) {
         const ShapeRecord& shape = world.shapes[slot];

@@ -9,9 +9,9 @@ namespace cairn {
 // The pairs of shapes that may touch in this step: boxes overlap, bodies differ, filters agree, and
 // one of the bodies is looked at (sleep.h). Sorted, and the same whichever broad phase finds them:
 // the tree's pairs of fat boxes are put to the same test.
-void find_step_pairs(WorldState& world, Team& team, double dt, std::vector<Pair>& pairs);
+void find_step_pairs(WorldState& world, Team& team, double dt, LargeArray<Pair>& pairs);
 // The same between steps, at the present poses and of all bodies, those that rest included.
-void find_present_pairs(const WorldState& world, double dt, std::vector<Pair>& pairs);
+void find_present_pairs(const WorldState& world, double dt, LargeArray<Pair>& pairs);
 
 // How far a body has gone since it was last seen, and may go in h seconds, falling by `fall`; and
 // all that move in this step. One that will not move any more is seen once more when it stops.

@@ -86,7 +86,7 @@ ContactReport describe(const WorldState& world, const Contact& contact, float wi
 std::vector<ContactReport> World::contacts() const {
     const FloatEnvironment ieee;
     const WorldState& world = *state_;
-    std::vector<Pair> pairs;
+    LargeArray<Pair> pairs;
     std::vector<ContactReport> reports;
     find_present_pairs(world, world.last_dt, pairs);
     for (const Pair& pair : pairs) {

@@ -2,8 +2,8 @@
 // What a world remembers of who moves and who sleeps; sleep.h says what is done with it.
 
 #include <cstdint>
-#include <vector>
 
+#include "base/large_array.h"
 #include "island/islands.h"
 #include "island/stillness.h"
 
@@ -20,18 +20,18 @@ struct RestState {
     // By body slot. A body that was changed since the last step is looked at in the next, moving or
     // not.
     static constexpr std::uint8_t is_moving = 1, is_changed = 2;
-    std::vector<std::uint8_t> states;
+    LargeArray<std::uint8_t> states;
 
-    Islands islands;                   // of dynamic bodies that are not frozen
-    std::vector<Sleeper> sleepers;     // by place in the islands
-    std::vector<std::uint32_t> links;  // in the islands, by contact slot
+    Islands islands;                  // of dynamic bodies that are not frozen
+    LargeArray<Sleeper> sleepers;     // by place in the islands
+    LargeArray<std::uint32_t> links;  // in the islands, by contact slot
 
-    std::vector<std::uint32_t> movers;    // ascending, as of the last list_moving()
-    std::vector<std::uint32_t> starting;  // move since
-    bool any_stopped = false;             // some of the movers no longer move
-    std::vector<std::uint32_t> changed;   // bodies
+    LargeArray<std::uint32_t> movers;    // ascending, as of the last list_moving()
+    LargeArray<std::uint32_t> starting;  // move since
+    bool any_stopped = false;            // some of the movers no longer move
+    LargeArray<std::uint32_t> changed;   // bodies
     // Bodies whose boxes must be renewed, and their pairs looked up, whether they move or not.
-    std::vector<std::uint32_t> stale;
+    LargeArray<std::uint32_t> stale;
     bool any_idle = false;  // there may be fat pairs of which neither is looked at any more
 
     // Room that steps use again, of no meaning between them.
@@ -40,7 +40,7 @@ struct RestState {
         bool all = false;        // every body of the island is still
         bool any = false;
     };
-    std::vector<Verdict> verdicts;  // by island
+    LargeArray<Verdict> verdicts;  // by island
     std::vector<std::uint32_t> candidates, parts, merged;
 };
 

@@ -89,27 +89,22 @@ bool is_touching(const Contact& contact) {
 }
 
 // The axis of a pair, or its points from an earlier step's.
-void find_axis_of_pair(WorldState& world, double dt, std::uint32_t place,
-                       std::vector<Meeting>& meetings) {
-    PairRecord& pair = world.contacts.pairs()[place];
+void find_axis_of_pair(WorldState& world, double dt, PairRecord& pair, Meeting& meeting) {
     const bool may_follow = world.settings.step.reuse_contacts;
     const bool has_contact = pair.contact != ContactStore::none;
+    pair.is_found = false;
     pair.meets = has_contact && may_follow && follow_contact(world, pair);
     if (pair.meets || (!has_contact && may_follow && is_apart(world, pair))) return;
-    Meeting& meeting = meetings.emplace_back();
-    meeting.pair = place;
-    const bool is_found =
+    const bool is_sound =
         find_meeting(world, pair.shape_a, pair.shape_b, dt, false, pair.hint, meeting);
-    pair.meets = is_found && meeting.axis.separation <= meeting.within;
+    pair.meets = pair.is_found = is_sound && meeting.axis.separation <= meeting.within;
     if (pair.meets) return;
-    if (is_found) remember_apart(world, pair, meeting.axis.separation);
+    if (is_sound) remember_apart(world, pair, meeting.axis.separation);
     if (has_contact) clear_contact(world.contacts[pair.contact]);
-    meetings.pop_back();
 }
 
 // The points of a pair where its axis says that the shapes meet, in place of the last step's.
-void find_points(WorldState& world, const Meeting& meeting) {
-    PairRecord& pair = world.contacts.pairs()[meeting.pair];
+void find_points(WorldState& world, PairRecord& pair, const Meeting& meeting) {
     Contact& contact = world.contacts[pair.contact];
     std::array<ContactPoint, 4> points;
     const int count = build_contact_points(world, meeting, meeting.within, contact, points);
@@ -121,9 +116,8 @@ void find_points(WorldState& world, const Meeting& meeting) {
     remember_contact(world, pair, meeting);
 }
 
-// Pairs, and those of them that meet, are shared out in blocks of so many: some microseconds' work.
-constexpr int pairs_a_block = 128;
-constexpr int meetings_a_block = 32;
+// Pairs are shared out in blocks of so many: some microseconds' work.
+constexpr int pairs_a_block = 64;
 
 ContactEvent make_event(const WorldState& world, const Contact& contact, ContactEventKind kind) {
     return {kind, body_id(world, contact.body_a), body_id(world, contact.body_b),
@@ -160,19 +154,38 @@ void drive_body(WorldState& world, std::uint32_t slot, float h) {
     }
 }
 
-// Lists the contacts that have points.
+// Gives a contact to each pair that meets and has none.
+void create_contacts(WorldState& world) {
+    const std::span<PairRecord> pairs = world.contacts.pairs();
+    const auto is_new = [](const PairRecord& pair) {
+        return pair.is_found && pair.contact == ContactStore::none;
+    };
+    const auto count = std::count_if(pairs.begin(), pairs.end(), is_new);
+    if (count == 0) return;
+    world.contacts.make_room(std::size_t(count));
+    for (PairRecord& pair : pairs) {
+        if (!is_new(pair)) continue;
+        const std::uint32_t body_a = world.shapes[pair.shape_a].body;
+        const std::uint32_t body_b = world.shapes[pair.shape_b].body;
+        describe_contact(world, world.contacts.add_contact(pair, body_a, body_b));
+    }
+}
+
+// Lists the contacts that have points, and tells how many were carried along.
 void list_active(WorldState& world) {
     auto& active = world.scratch.active;
     active.clear();
-    std::size_t point_count = 0;
+    std::size_t point_count = 0, reused_count = 0;
     for (const PairRecord& pair : world.contacts.pairs()) {
         if (!pair.meets) continue;
+        reused_count += pair.is_found ? 0 : 1;
         Contact& contact = world.contacts[pair.contact];
         turn_surface_velocity(world, contact);
         active.push_back(pair.contact);
         point_count += std::size_t(contact.point_count);
     }
     world.report.contact_count = point_count;
+    world.report.reused_count = reused_count;
 }
 
 }  // namespace
@@ -207,42 +220,26 @@ void find_pairs(WorldState& world, Team& team, double dt) {
 void find_axes(WorldState& world, Team& team, double dt) {
     const StageTimer timer(world, Stage::FindAxes);
     update_ways(world, team, dt);
-    const std::size_t count = world.contacts.pairs().size();
+    const std::span<PairRecord> pairs = world.contacts.pairs();
     auto& meetings = world.scratch.meetings;
-    meetings.resize(std::max(meetings.size(), count / pairs_a_block + 1));
-    for (auto& block : meetings) block.clear();
-    team.for_range(int(count), pairs_a_block, [&](int begin, int end, int) {
-        // One block, or all of them on one thread.
-        for (int i = begin; i < end; ++i)
-            find_axis_of_pair(world, dt, std::uint32_t(i),
-                              meetings[std::size_t(i / pairs_a_block)]);
+    if (meetings.size() < pairs.size()) meetings.resize(pairs.size());
+    team.for_range(int(pairs.size()), pairs_a_block, [&](int begin, int end, int) {
+        for (auto i = std::size_t(begin); i < std::size_t(end); ++i)
+            find_axis_of_pair(world, dt, pairs[i], meetings[i]);
     });
-    auto& listed = world.scratch.listed_meetings;
-    listed.clear();
-    for (const auto& block : meetings) {
-        for (const Meeting& meeting : block) listed.push_back(&meeting);
-    }
 }
 
 // Reads axes; writes the normal and points of each contact, and lists the contacts that have any.
 void build_manifolds(WorldState& world, Team& team) {
     const StageTimer timer(world, Stage::BuildManifolds);
-    const auto& meetings = world.scratch.listed_meetings;
-    for (const Meeting* meeting : meetings) {
-        PairRecord& pair = world.contacts.pairs()[meeting->pair];
-        if (pair.contact != ContactStore::none) continue;
-        const std::uint32_t body_a = world.shapes[pair.shape_a].body;
-        const std::uint32_t body_b = world.shapes[pair.shape_b].body;
-        describe_contact(world, world.contacts.add_contact(pair, body_a, body_b));
-    }
-    team.for_range(int(meetings.size()), meetings_a_block, [&](int begin, int end, int) {
-        for (int i = begin; i < end; ++i) find_points(world, *meetings[std::size_t(i)]);
+    const std::span<PairRecord> pairs = world.contacts.pairs();
+    create_contacts(world);
+    team.for_range(int(pairs.size()), pairs_a_block, [&](int begin, int end, int) {
+        for (auto i = std::size_t(begin); i < std::size_t(end); ++i) {
+            if (pairs[i].is_found) find_points(world, pairs[i], world.scratch.meetings[i]);
+        }
     });
     list_active(world);
-    std::size_t found_count = 0;
-    for (const Meeting* meeting : meetings)
-        found_count += world.contacts.pairs()[meeting->pair].meets ? 1 : 0;
-    world.report.reused_count = world.scratch.active.size() - found_count;
 }
 
 // Reads the contacts that have points; writes the islands. What sleeps and is touched wakes and
@@ -254,7 +251,7 @@ void join_islands(WorldState& world, double dt) {
     world.contacts.list_returned();
     list_active(world);
     auto& moving = world.scratch.moving;
-    const std::vector<std::uint32_t> before = moving;
+    const LargeArray<std::uint32_t> before = moving;
     for (const std::uint32_t slot : world.rest.movers) {
         const bool is_new = !std::binary_search(before.begin(), before.end(), slot);
         if (is_new && !world.bodies[slot].frozen) drive_body(world, slot, float(dt));

@@ -71,7 +71,7 @@ void assign_mass(WorldState& world, std::uint32_t slot, const MassProperties& pr
     measure_extent(world, slot);
 }
 
-std::uint32_t take_slot(std::vector<std::uint32_t>& free, std::size_t size) {
+std::uint32_t take_slot(LargeArray<std::uint32_t>& free, std::size_t size) {
     if (free.empty()) return std::uint32_t(size);
     const std::uint32_t slot = free.back();
     free.pop_back();

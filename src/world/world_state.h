@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/large_array.h"
 #include "base/scheduler.h"
 #include "broad/brute_force.h"
 #include "broad/tree_pairs.h"
@@ -55,7 +56,6 @@ struct BodyWay {
 
 // A pair of shapes within reach of each other, between two stages.
 struct Meeting {
-    std::uint32_t pair = 0;   // its place in the list
     Vec3 offset_a, offset_b;  // from the bodies' centers of mass to the shapes' origins, world
     Quat rotation_a;          // of shape A
     Pose b_in_a;              // of the shapes
@@ -71,23 +71,23 @@ struct WorldState {
     SharedScheduler scheduler;  // copies share it
 
     // By body slot.
-    std::vector<BodyRecord> bodies;
-    std::vector<Position> positions;  // of the centers of mass
-    std::vector<BodyMotion> motions;
-    std::vector<BodyInertia> inertias;
-    std::vector<BodyDrive> drives;
-    std::vector<BodyWay> ways;
-    std::vector<std::uint32_t> free_bodies;
+    LargeArray<BodyRecord> bodies;
+    LargeArray<Position> positions;  // of the centers of mass
+    LargeArray<BodyMotion> motions;
+    LargeArray<BodyInertia> inertias;
+    LargeArray<BodyDrive> drives;
+    LargeArray<BodyWay> ways;
+    LargeArray<std::uint32_t> free_bodies;
     std::size_t body_count = 0;
 
-    std::vector<ShapeRecord> shapes;  // by shape slot
-    std::vector<std::uint32_t> free_shapes;
+    LargeArray<ShapeRecord> shapes;  // by shape slot
+    LargeArray<std::uint32_t> free_shapes;
 
     // By shape slot: a box that holds the shape throughout the step, as of the last step that
     // looked at it.
-    std::vector<Aabb> boxes;
-    TreePairs tree;               // fat boxes, by shape slot
-    std::vector<Pair> fat_pairs;  // those among them of which a body is looked at, sorted
+    LargeArray<Aabb> boxes;
+    TreePairs tree;              // fat boxes, by shape slot
+    LargeArray<Pair> fat_pairs;  // those among them of which a body is looked at, sorted
 
     ContactStore contacts;
     RestState rest;
@@ -99,18 +99,17 @@ struct WorldState {
 
     // Room that steps use again, of no meaning between them.
     struct Scratch {
-        std::vector<Proxy> proxies;
+        LargeArray<Proxy> proxies;
         BruteForce broad;
-        std::vector<Pair> pairs, found_pairs, merged_pairs;
-        std::vector<std::vector<Pair>> found_parts;  // by worker
-        std::vector<Proxy> new_proxies;
-        std::vector<std::uint32_t> updated;  // shapes
-        std::vector<std::uint32_t> moving;
-        std::vector<std::vector<Meeting>> meetings;  // by block of pairs
-        std::vector<const Meeting*> listed_meetings;
-        std::vector<std::uint32_t> active;
-        std::vector<BodyMotion> before;
-        std::vector<float> heights;
+        LargeArray<Pair> pairs, found_pairs, merged_pairs;
+        std::vector<LargeArray<Pair>> found_parts;  // by worker
+        LargeArray<Proxy> new_proxies;
+        LargeArray<std::uint32_t> updated;  // shapes
+        LargeArray<std::uint32_t> moving;
+        LargeArray<Meeting> meetings;  // by place in the list of pairs
+        LargeArray<std::uint32_t> active;
+        LargeArray<BodyMotion> before;
+        LargeArray<float> heights;
         DenseBodies dense;
     } scratch;
 };

@@ -8,7 +8,7 @@ using namespace cairn;
 
 TEST_CASE("the pairs are exactly those whose boxes overlap and of which one moves, in order") {
     BruteForce broad;
-    std::vector<Pair> pairs;
+    LargeArray<Pair> pairs;
     std::uint64_t random = 7;
     const auto next = [&] {
         random = random * 6364136223846793005u + 1442695040888963407u;
@@ -22,7 +22,7 @@ TEST_CASE("the pairs are exactly those whose boxes overlap and of which one move
             const Vec3 half = {next(), next(), next()};
             proxies.push_back({{center - half, center + half}, 3 * i, next() < 0.7f});
         }
-        std::vector<Pair> expected;
+        LargeArray<Pair> expected;
         for (std::uint32_t i = 0; i < count; ++i) {
             for (std::uint32_t j = i + 1; j < count; ++j) {
                 const bool moves = proxies[i].moves || proxies[j].moves;
@@ -37,7 +37,7 @@ TEST_CASE("the pairs are exactly those whose boxes overlap and of which one move
 
 TEST_CASE("boxes that share a face overlap") {
     BruteForce broad;
-    std::vector<Pair> pairs;
+    LargeArray<Pair> pairs;
     const std::vector<Proxy> proxies = {{{{0, 0, 0}, {1, 1, 1}}, 0, true},
                                         {{{1, 0, 0}, {2, 1, 1}}, 1, false}};
     broad.find_pairs(proxies, pairs);

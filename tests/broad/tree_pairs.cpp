@@ -48,7 +48,7 @@ struct Caller {
     TreePairs trees;
     std::map<std::uint32_t, Proxy> proxies;
     std::map<std::uint32_t, bool> touched;
-    std::vector<Pair> kept;
+    LargeArray<Pair> kept;
 
     void insert(std::uint32_t id, const Aabb& box, bool moves) {
         CHECK(trees.insert(id, box, moves));
@@ -80,10 +80,10 @@ struct Caller {
         proxies[id].moves = moves;
     }
 
-    std::vector<Pair> all_pairs() const {
+    LargeArray<Pair> all_pairs() const {
         std::vector<Proxy> list;
         for (const auto& [id, proxy] : proxies) list.push_back(proxy);
-        std::vector<Pair> pairs;
+        LargeArray<Pair> pairs;
         BruteForce().find_pairs(list, pairs);
         return pairs;
     }
@@ -91,15 +91,15 @@ struct Caller {
     // Finds the new pairs; true when they are those with a touched id, and all kept are all there
     // are.
     bool step() {
-        std::vector<Pair> told;
+        LargeArray<Pair> told;
         trees.find_new_pairs(told);
         kept.insert(kept.end(), told.begin(), told.end());
         std::sort(kept.begin(), kept.end());
         kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
         std::erase_if(kept, [&](const Pair& pair) { return !trees.make_pair(pair.a, pair.b); });
 
-        const std::vector<Pair> all = all_pairs();
-        std::vector<Pair> fresh = all;
+        const LargeArray<Pair> all = all_pairs();
+        LargeArray<Pair> fresh = all;
         std::erase_if(fresh, [&](const Pair& pair) {
             return !touched.contains(pair.a) && !touched.contains(pair.b);
         });
@@ -207,7 +207,7 @@ TEST_CASE("a copy takes the same future as its original, to the order of its nod
     }
     CHECK(copy.kept == original.kept);
     for (const bool moves : {false, true}) {
-        std::vector<std::uint32_t> ids, ids_of_copy;
+        LargeArray<std::uint32_t> ids, ids_of_copy;
         original.trees.tree(moves).list_leaves(ids);
         copy.trees.tree(moves).list_leaves(ids_of_copy);
         CHECK(ids == ids_of_copy);
@@ -222,13 +222,13 @@ TEST_CASE("a search cut into parts, done in any order, finds the same pairs") {
         whole.insert(id, box, random.below(2) != 0);
     }
     TreePairs cut = whole;
-    std::vector<Pair> expected, pairs;
+    LargeArray<Pair> expected, pairs;
     whole.find_new_pairs(expected);
     const std::size_t count = cut.prepare_search();
     REQUIRE(count > 7);
     for (std::size_t end = count; end > 0;) {
         const std::size_t begin = end > 7 ? end - 7 : 0;
-        std::vector<Pair> part;
+        LargeArray<Pair> part;
         cut.search(begin, end, part);
         pairs.insert(pairs.end(), part.begin(), part.end());
         end = begin;
@@ -336,7 +336,7 @@ TEST_CASE("a million boxes at once take less than 100 bytes each") {
     TreePairs trees;
     REQUIRE(trees.insert_many(many));
     REQUIRE(trees.insert(1000000, cube({5000, 0, 5000}, 6), true));
-    std::vector<Pair> pairs;
+    LargeArray<Pair> pairs;
     trees.find_new_pairs(pairs);
     CHECK(pairs.size() == 1);
     const double bytes = 1e-6 * double(trees.byte_count());
@@ -355,7 +355,7 @@ TEST_CASE("bodies that cross the world for half a minute leave a tree as good as
         velocities[id] = random.point(5);
         walked.insert(id, cube(centers[id], 0.6f), true);
     }
-    std::vector<Pair> pairs;
+    LargeArray<Pair> pairs;
     double walked_visits = 0, fresh_visits = 0;
     for (int step = 0; step < 2000; ++step) {
         for (std::uint32_t id = 0; id < count; ++id) {
@@ -410,13 +410,13 @@ TEST_CASE(
 
 TEST_CASE("pairs are sorted by both ids, few or many, small ids or large") {
     Random random;
-    std::vector<Pair> room;
+    LargeArray<Pair> room;
     for (const std::uint32_t count : {0u, 1u, 100u, 20000u}) {
         for (const std::uint32_t most : {1u, 1000u, 100000u, 0x7fffffffu}) {
-            std::vector<Pair> pairs;
+            LargeArray<Pair> pairs;
             for (std::uint32_t i = 0; i < count; ++i)
                 pairs.push_back({random.below(most), random.below(most)});
-            std::vector<Pair> expected = pairs;
+            LargeArray<Pair> expected = pairs;
             std::sort(expected.begin(), expected.end());
             sort_pairs(pairs, room);
             CHECK(pairs == expected);
