@@ -123,20 +123,28 @@ void clear_impulses(Contact& contact) {
     contact.spinning_impulse = 0;
 }
 
-void match_points(Contact& contact, std::span<const ContactPoint> renewed) {
-    std::array<ContactPoint, 4> points;
-    for (std::size_t i = 0; i < renewed.size(); ++i) {
-        points[i] = renewed[i];
-        for (int j = 0; j < contact.point_count; ++j) {
-            const ContactPoint& old = contact.points[std::size_t(j)];
-            if (old.feature != points[i].feature) continue;
-            points[i].normal_force = old.normal_force;
-            points[i].friction_force = old.friction_force;
+PointForces forces_of(const Contact& contact) {
+    PointForces forces;
+    forces.count = contact.point_count;
+    for (int i = 0; i < contact.point_count; ++i) {
+        const ContactPoint& point = contact.points[std::size_t(i)];
+        forces.feature[i] = point.feature;
+        forces.normal[i] = point.normal_force;
+        forces.friction[i] = point.friction_force;
+    }
+    return forces;
+}
+
+void match_points(const PointForces& before, Contact& contact) {
+    for (int i = 0; i < contact.point_count; ++i) {
+        ContactPoint& point = contact.points[std::size_t(i)];
+        for (int j = 0; j < before.count; ++j) {
+            if (before.feature[j] != point.feature) continue;
+            point.normal_force = before.normal[j];
+            point.friction_force = before.friction[j];
             break;
         }
     }
-    contact.point_count = int(renewed.size());
-    std::copy_n(points.begin(), renewed.size(), contact.points.begin());
     contact.rolling_impulse = {};
     contact.spinning_impulse = 0;
 }

@@ -99,9 +99,17 @@ private:
     LargeArray<std::uint32_t> free_;
 };
 
-// Carries the impulses of `contact`'s points over to the new points where the feature is the same;
-// then the new points take the old ones' place.
-void match_points(Contact& contact, std::span<const ContactPoint> renewed);
+// What a contact's points bore, by feature.
+struct PointForces {
+    int count;
+    std::uint32_t feature[4];
+    float normal[4];
+    Vec3 friction[4];
+};
+PointForces forces_of(const Contact& contact);
+// Carries the forces over to the points that took the place of those, where the feature is the
+// same; nothing has passed through them yet in this step.
+void match_points(const PointForces& before, Contact& contact);
 
 template <class Unwanted, class OnEnd>
 void ContactStore::remove_if(Unwanted&& unwanted, OnEnd&& on_end) {

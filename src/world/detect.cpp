@@ -32,12 +32,13 @@ bool is_plane(const Geometry& geometry) { return std::holds_alternative<Plane>(g
 
 // From the body's center of mass to the shape's origin, along world axes.
 Vec3 shape_offset(const WorldState& world, const ShapeRecord& shape) {
-    return rotate(world.motions[shape.body].rotation,
-                  shape.def.local_pose.position - world.bodies[shape.body].center_of_mass);
+    if (shape.offset == Vec3{}) return {};
+    return rotate(world.motions[shape.body].rotation, shape.offset);
 }
 
 Quat shape_rotation(const WorldState& world, const ShapeRecord& shape) {
-    return world.motions[shape.body].rotation * shape.def.local_pose.rotation;
+    const Quat rotation = world.motions[shape.body].rotation;
+    return shape.is_turned ? rotation * shape.def.local_pose.rotation : rotation;
 }
 
 // How far a shape's points may travel in dt seconds, beyond the smooth path of its center of mass.
@@ -52,14 +53,13 @@ float fall_in(const WorldState& world, float dt) {
     return length(world.settings.gravity) * dt * dt;
 }
 
-// An arm that ends at `point` (from the center of mass, world axes): in two parts for a round
-// shape, whose touching point stays below its center.
-Arm make_arm(const WorldState& world, const ShapeRecord& shape, Vec3 point) {
-    const Quat rotation = world.motions[shape.body].rotation;
-    if (!is_round(shape.def.geometry)) return {rotate_inverse(rotation, point), {}};
-    const Vec3 center = shape.def.local_pose.position - world.bodies[shape.body].center_of_mass;
-    return {center, point - rotate(rotation, center)};
+// An arm that ends at a point of the shape, along its own axes from its origin.
+Arm make_arm(const ShapeRecord& shape, Vec3 point) {
+    return {shape.offset + (shape.is_turned ? rotate(shape.def.local_pose.rotation, point) : point),
+            {}};
 }
+// To a point of a round shape, world axes: the touching point stays below the center.
+Arm make_round_arm(const ShapeRecord& shape, Vec3 point) { return {shape.offset, point}; }
 
 BodyPlace place_of(const WorldState& world, std::uint32_t body) {
     return {world.positions[body], world.motions[body].rotation};
@@ -338,10 +338,8 @@ bool find_meeting(const WorldState& world, std::uint32_t shape_a, std::uint32_t 
                   bool exactly, AxisHint& hint, Meeting& meeting) {
     const ShapeRecord& a = world.shapes[shape_a];
     const ShapeRecord& b = world.shapes[shape_b];
-    meeting.offset_a = shape_offset(world, a);
-    meeting.offset_b = shape_offset(world, b);
-    const Vec3 between =
-        (world.positions[b.body] - world.positions[a.body]) + (meeting.offset_b - meeting.offset_a);
+    const Vec3 between = (world.positions[b.body] - world.positions[a.body]) +
+                         (shape_offset(world, b) - shape_offset(world, a));
     meeting.rotation_a = shape_rotation(world, a);
     meeting.b_in_a = {rotate_inverse(meeting.rotation_a, between),
                       conjugate(meeting.rotation_a) * shape_rotation(world, b)};
@@ -356,32 +354,34 @@ bool find_meeting(const WorldState& world, std::uint32_t shape_a, std::uint32_t 
     return true;
 }
 
-int build_contact_points(const WorldState& world, const Meeting& meeting, float max_separation,
-                         Contact& contact, std::array<ContactPoint, 4>& points) {
+void build_contact_points(const WorldState& world, const Meeting& meeting, float max_separation,
+                          Contact& contact) {
     const ShapeRecord& a = world.shapes[contact.shape_a];
     const ShapeRecord& b = world.shapes[contact.shape_b];
-    const Quat rotation_a = meeting.rotation_a;
+    const bool round_a = is_round(a.def.geometry), round_b = is_round(b.def.geometry);
     const Manifold manifold = build_manifold(a.def.geometry, b.def.geometry, meeting.b_in_a,
                                              meeting.axis, max_separation);
-    contact.normal = normalize_or(rotate(rotation_a, manifold.normal), {0, 1, 0});
-    int count = 0;
+    const Mat3 axes_a = to_matrix(meeting.rotation_a), b_to_a = to_matrix(meeting.b_in_a.rotation);
+    contact.normal = normalize_or(axes_a * manifold.normal, {0, 1, 0});
+    contact.point_count = 0;
     for (int i = 0; i < manifold.point_count; ++i) {
         const ManifoldPoint& from = manifold.points[std::size_t(i)];
         if (!is_finite(from.separation) || !is_finite(from.from_a) || !is_finite(from.from_b))
             continue;
-        ContactPoint point;
-        point.arm_a = make_arm(world, a, meeting.offset_a + rotate(rotation_a, from.from_a));
-        point.arm_b = make_arm(world, b, meeting.offset_b + rotate(rotation_a, from.from_b));
+        ContactPoint& point = contact.points[std::size_t(contact.point_count++)];
+        point = {};
+        point.arm_a = round_a ? make_round_arm(a, axes_a * from.from_a) : make_arm(a, from.from_a);
+        point.arm_b = round_b ? make_round_arm(b, axes_a * from.from_b)
+                              : make_arm(b, multiply_transposed(b_to_a, from.from_b));
         point.separation = from.separation;
         point.feature = from.feature;
-        points[std::size_t(count++)] = point;
     }
     // A ball's arms do not turn with it.
     const float short_arm = 1e-3f * contact.size;
     const auto turns = [&](Vec3 core) { return length_squared(core) > short_arm * short_arm; };
-    contact.turns_with_a = count > 0 && turns(points[0].arm_a.core);
-    contact.turns_with_b = count > 0 && turns(points[0].arm_b.core);
-    return count;
+    const bool any = contact.point_count > 0;
+    contact.turns_with_a = any && turns(contact.points[0].arm_a.core);
+    contact.turns_with_b = any && turns(contact.points[0].arm_b.core);
 }
 
 bool follow_contact(WorldState& world, const PairRecord& pair) {

@@ -33,10 +33,10 @@ void turn_surface_velocity(const WorldState& world, Contact& contact);
 bool find_meeting(const WorldState& world, std::uint32_t shape_a, std::uint32_t shape_b, double dt,
                   bool exactly, AxisHint& hint, Meeting& meeting);
 
-// Up to four world-frame points where they meet, with no impulses yet; the contact's normal is
-// renewed. Points farther apart than `max_separation` are left out. Returns their number.
-int build_contact_points(const WorldState& world, const Meeting& meeting, float max_separation,
-                         Contact& contact, std::array<ContactPoint, 4>& points);
+// Renews the contact's normal and its points, up to four, which have no forces and impulses yet.
+// Points farther apart than `max_separation` are left out.
+void build_contact_points(const WorldState& world, const Meeting& meeting, float max_separation,
+                          Contact& contact);
 
 // Brings the pair's contact to the present from what was found in an earlier step, where the bodies
 // have hardly moved against each other since (contact/reuse.h); false where it must be found anew.

@@ -105,7 +105,7 @@ std::vector<ContactReport> World::contacts() const {
         const float within = meeting.within;
         const float wanted = struck ? std::numeric_limits<float>::max() : within;
         if (meeting.axis.separation > wanted) continue;
-        contact.point_count = build_contact_points(world, meeting, wanted, contact, contact.points);
+        build_contact_points(world, meeting, wanted, contact);
         if (stored) assign_impulses(*stored, contact);
         const ContactReport report = describe(world, contact, within);
         if (report.point_count > 0) reports.push_back(report);

@@ -106,11 +106,11 @@ void find_axis_of_pair(WorldState& world, double dt, PairRecord& pair, Meeting& 
 // The points of a pair where its axis says that the shapes meet, in place of the last step's.
 void find_points(WorldState& world, PairRecord& pair, const Meeting& meeting) {
     Contact& contact = world.contacts[pair.contact];
-    std::array<ContactPoint, 4> points;
-    const int count = build_contact_points(world, meeting, meeting.within, contact, points);
-    match_points(contact, std::span(points).first(std::size_t(count)));
-    pair.meets = count > 0;
-    if (count == 0) clear_contact(contact);
+    const PointForces before = forces_of(contact);
+    build_contact_points(world, meeting, meeting.within, contact);
+    match_points(before, contact);
+    pair.meets = contact.point_count > 0;
+    if (!pair.meets) clear_contact(contact);
     // Shapes that move together touch before they overlap; these were put there overlapping.
     if (!contact.touching) contact.first_overlap = max(0, -meeting.axis.separation);
     remember_contact(world, pair, meeting);

@@ -64,8 +64,8 @@ void assign_mass(WorldState& world, std::uint32_t slot, const MassProperties& pr
     float& reach = world.ways[slot].reach = 0;
     for (const std::uint32_t s : body.shapes) {
         ShapeRecord& shape = world.shapes[s];
-        shape.reach = length(shape.def.local_pose.position - body.center_of_mass) +
-                      bounding_radius(shape.def.geometry);
+        shape.offset = shape.def.local_pose.position - body.center_of_mass;
+        shape.reach = length(shape.offset) + bounding_radius(shape.def.geometry);
         reach = max(reach, shape.reach);
     }
     measure_extent(world, slot);
@@ -86,6 +86,7 @@ std::uint32_t add_shape(WorldState& world, std::uint32_t body, const ShapeDef& d
     shape.body = body;
     shape.def = def;
     shape.def.local_pose.rotation = normalize(def.local_pose.rotation);
+    shape.is_turned = shape.def.local_pose.rotation != Quat{};
     if (auto* plane = std::get_if<Plane>(&shape.def.geometry))
         plane->normal = normalize_or(plane->normal, {0, 1, 0});
     shape.size = smallest_half_extent(shape.def.geometry);

@@ -42,8 +42,10 @@ struct ShapeRecord {
     bool alive = false;
     std::uint32_t body = 0;
     ShapeDef def;
-    float size = 0;   // smallest half extent
-    float reach = 0;  // largest distance of a point from the body's center of mass
+    Vec3 offset;             // of its origin from the body's center of mass, body frame
+    bool is_turned = false;  // its axes are not the body's
+    float size = 0;          // smallest half extent
+    float reach = 0;         // largest distance of a point from the body's center of mass
 };
 
 // How far a body's points have gone at most, m: what two shapes that were apart have left to go.
@@ -56,10 +58,9 @@ struct BodyWay {
 
 // A pair of shapes within reach of each other, between two stages.
 struct Meeting {
-    Vec3 offset_a, offset_b;  // from the bodies' centers of mass to the shapes' origins, world
-    Quat rotation_a;          // of shape A
-    Pose b_in_a;              // of the shapes
-    Axis axis;                // in shape A's frame
+    Quat rotation_a;  // of shape A
+    Pose b_in_a;      // of the shapes
+    Axis axis;        // in shape A's frame
     AxisHint hint;
     float within = 0;  // points farther apart than this are left out
 };
