@@ -44,6 +44,11 @@ public:
     // stores `fat`, marks the id as escaped, true.
     bool update(std::uint32_t id, const Aabb& tight, const Aabb& fat);
 
+    // Whether the id is there as one that moves or does not, and its stored box holds `tight`: then
+    // it needs no update.
+    bool holds(std::uint32_t id, const Aabb& tight, bool as_moving) const {
+        return is_there(id) && moves(id) == as_moving && contains(boxes_[id], tight);
+    }
     bool is_there(std::uint32_t id) const {
         return id < states_.size() && (states_[id] & there) != 0;
     }

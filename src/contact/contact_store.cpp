@@ -39,6 +39,7 @@ void ContactStore::put_aside(const PairRecord& pair) {
     if (asides_.size() < slots_.size()) asides_.resize(slots_.size());
     listings_[pair.contact] = Listing::Aside;
     asides_[pair.contact] = pair;
+    asides_[pair.contact].is_found = false;
     asides_by_key_.insert(key_of(pair), pair.contact);
 }
 

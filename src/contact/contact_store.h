@@ -30,6 +30,7 @@ struct PairRecord {
     AxisHint hint;
     bool meets = false;     // has contact points in this step
     bool is_found = false;  // and they are found anew
+    bool has_news = false;  // its contact began, ended or has no points
     // The shapes have stayed apart while the ways that the two bodies have gone together are less
     // than this (world/detect.h).
     double apart_until = -1;

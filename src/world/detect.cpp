@@ -3,7 +3,7 @@
 #include "world/detect.h"
 
 #include <algorithm>
-#include <iterator>
+#include <functional>
 
 #include "contact/build_manifold.h"
 #include "contact/reuse.h"
@@ -134,6 +134,7 @@ bool can_move(const WorldState& world, std::uint32_t body) {
 constexpr int shapes_a_block = 64;
 constexpr int bodies_a_block = 128;
 constexpr int searches_a_block = 16;
+constexpr std::size_t pairs_a_block = 256;
 
 // The box with room for some steps more.
 Aabb fatten(const WorldState& world, const ShapeRecord& shape, const Aabb& box, bool moves,
@@ -175,16 +176,21 @@ void update_boxes(WorldState& world, Team& team, float h) {
         if (!moves(world, body)) add(body);
     }
     world.boxes.resize(world.shapes.size());
+    auto& escaped = world.scratch.escaped;
+    escaped.resize(updated.size());
     team.for_range(int(updated.size()), shapes_a_block, [&](int begin, int end, int) {
-        for (int i = begin; i < end; ++i) {
-            const std::uint32_t slot = updated[std::size_t(i)];
+        for (auto i = std::size_t(begin); i < std::size_t(end); ++i) {
+            const std::uint32_t slot = updated[i];
             const ShapeRecord& shape = world.shapes[slot];
             world.boxes[slot] = find_box(world, shape, moves(world, shape.body), h);
+            escaped[i] = !world.tree.holds(slot, world.boxes[slot], can_move(world, shape.body));
         }
     });
     if (world.settings.step.broad_phase == BroadPhase::Tree) {
         world.scratch.new_proxies.clear();
-        for (const std::uint32_t slot : updated) update_tree(world, slot, h);
+        for (std::size_t i = 0; i < updated.size(); ++i) {
+            if (escaped[i] != 0) update_tree(world, updated[i], h);
+        }
         world.tree.insert_many(world.scratch.new_proxies);
         for (const std::uint32_t body : stale) {
             for (const std::uint32_t slot : world.bodies[body].shapes) world.tree.look_up(slot);
@@ -214,6 +220,31 @@ void find_new_pairs(WorldState& world, Team& team) {
     world.tree.finish_search(scratch.found_pairs);
 }
 
+// Leaves those of the pairs that keep(pair) is true for, in their order.
+template <class Keep>
+void keep_pairs(Team& team, LargeArray<Pair>& pairs, LargeArray<std::uint32_t>& kept_counts,
+                const Keep& keep) {
+    const std::size_t block_count = (pairs.size() + pairs_a_block - 1) / pairs_a_block;
+    kept_counts.resize(block_count);
+    team.for_range(int(block_count), 1, [&](int begin, int end, int) {
+        for (auto block = std::size_t(begin); block < std::size_t(end); ++block) {
+            const auto first = pairs.begin() + std::ptrdiff_t(block * pairs_a_block);
+            const auto last =
+                block + 1 < block_count ? first + std::ptrdiff_t(pairs_a_block) : pairs.end();
+            kept_counts[block] =
+                std::uint32_t(std::remove_if(first, last, std::not_fn(keep)) - first);
+        }
+    });
+    // Moves the blocks' rests together.
+    auto to = pairs.begin();
+    for (std::size_t block = 0; block < block_count; ++block) {
+        const auto from = pairs.begin() + std::ptrdiff_t(block * pairs_a_block);
+        const auto count = std::ptrdiff_t(kept_counts[block]);
+        to = to == from ? to + count : std::copy(from, from + count, to);
+    }
+    pairs.erase(to, pairs.end());
+}
+
 void find_tree_pairs(WorldState& world, Team& team, LargeArray<Pair>& pairs) {
     WorldState::Scratch& scratch = world.scratch;
     find_new_pairs(world, team);
@@ -221,19 +252,21 @@ void find_tree_pairs(WorldState& world, Team& team, LargeArray<Pair>& pairs) {
     std::erase_if(found, [&](const Pair& pair) { return is_idle(world, pair); });
     const bool any_idle = world.rest.any_idle;
     world.rest.any_idle = false;
-    std::erase_if(world.fat_pairs, [&](const Pair& pair) {
-        return !world.tree.make_pair(pair.a, pair.b) || (any_idle && is_idle(world, pair));
+    keep_pairs(team, world.fat_pairs, scratch.kept_counts, [&](const Pair& pair) {
+        return world.tree.make_pair(pair.a, pair.b) && !(any_idle && is_idle(world, pair));
     });
     // A pair is told again when one of its two has left its box.
-    scratch.merged_pairs.clear();
-    std::set_union(world.fat_pairs.begin(), world.fat_pairs.end(), found.begin(), found.end(),
-                   std::back_inserter(scratch.merged_pairs));
-    world.fat_pairs.swap(scratch.merged_pairs);
-    pairs.clear();
-    for (const Pair& pair : world.fat_pairs) {
-        if (overlaps(world.boxes[pair.a], world.boxes[pair.b]) && may_touch(world, pair))
-            pairs.push_back(pair);
+    if (!found.empty()) {
+        scratch.merged_pairs.resize(world.fat_pairs.size() + found.size());
+        const auto end = std::set_union(world.fat_pairs.begin(), world.fat_pairs.end(),
+                                        found.begin(), found.end(), scratch.merged_pairs.begin());
+        scratch.merged_pairs.erase(end, scratch.merged_pairs.end());
+        world.fat_pairs.swap(scratch.merged_pairs);
     }
+    pairs.assign(world.fat_pairs.begin(), world.fat_pairs.end());
+    keep_pairs(team, pairs, scratch.kept_counts, [&](const Pair& pair) {
+        return overlaps(world.boxes[pair.a], world.boxes[pair.b]) && may_touch(world, pair);
+    });
 }
 
 }  // namespace

@@ -116,8 +116,25 @@ void find_points(WorldState& world, PairRecord& pair, const Meeting& meeting) {
     remember_contact(world, pair, meeting);
 }
 
-// Pairs are shared out in blocks of so many: some microseconds' work.
-constexpr int pairs_a_block = 64;
+// Pairs and bodies are shared out in blocks of so many: some microseconds' work.
+constexpr std::size_t pairs_a_block = 64;
+constexpr int bodies_a_block = 128;
+
+// work(pairs, first, block) for each block of the list of pairs: the span of it, the place of its
+// first, and what is found in it.
+template <class Work>
+void for_pair_blocks(WorldState& world, Team& team, const Work& work) {
+    const std::span<PairRecord> pairs = world.contacts.pairs();
+    auto& blocks = world.scratch.pair_blocks;
+    blocks.resize((pairs.size() + pairs_a_block - 1) / pairs_a_block);
+    team.for_range(int(blocks.size()), 1, [&](int begin, int end, int) {
+        for (auto i = std::size_t(begin); i < std::size_t(end); ++i) {
+            const std::size_t first = i * pairs_a_block;
+            work(pairs.subspan(first, std::min(pairs_a_block, pairs.size() - first)), first,
+                 blocks[i]);
+        }
+    });
+}
 
 ContactEvent make_event(const WorldState& world, const Contact& contact, ContactEventKind kind) {
     return {kind, body_id(world, contact.body_a), body_id(world, contact.body_b),
@@ -171,21 +188,69 @@ void create_contacts(WorldState& world) {
     }
 }
 
-// Lists the contacts that have points, and tells how many were carried along.
-void list_active(WorldState& world) {
-    auto& active = world.scratch.active;
-    active.clear();
-    std::size_t point_count = 0, reused_count = 0;
-    for (const PairRecord& pair : world.contacts.pairs()) {
+// Counts the contacts that have points, block by block.
+void count_contacts(const WorldState& world, std::span<const PairRecord> pairs, PairBlock& block) {
+    block = {};
+    for (const PairRecord& pair : pairs) {
         if (!pair.meets) continue;
-        reused_count += pair.is_found ? 0 : 1;
-        Contact& contact = world.contacts[pair.contact];
-        turn_surface_velocity(world, contact);
-        active.push_back(pair.contact);
-        point_count += std::size_t(contact.point_count);
+        ++block.contact_count;
+        block.reused_count += pair.is_found ? 0 : 1;
+        block.point_count += std::uint32_t(world.contacts[pair.contact].point_count);
+    }
+}
+
+// Lists the contacts that were counted.
+void list_active(WorldState& world, Team& team) {
+    std::size_t contact_count = 0, point_count = 0, reused_count = 0;
+    for (PairBlock& block : world.scratch.pair_blocks) {
+        const std::uint32_t count = block.contact_count;
+        // From here on, where the block's begin.
+        block.contact_count = std::uint32_t(contact_count);
+        contact_count += count;
+        point_count += block.point_count;
+        reused_count += block.reused_count;
     }
     world.report.contact_count = point_count;
     world.report.reused_count = reused_count;
+    auto& active = world.scratch.active;
+    active.resize(contact_count);
+    for_pair_blocks(world, team,
+                    [&](std::span<PairRecord> pairs, std::size_t, const PairBlock& block) {
+                        std::size_t place = block.contact_count;
+                        for (const PairRecord& pair : pairs) {
+                            if (pair.meets) active[place++] = pair.contact;
+                        }
+                    });
+}
+
+// Whether a contact began or ended, or is to be dropped.
+bool has_news(const Contact& contact) {
+    return contact.point_count == 0 || is_touching(contact) != contact.touching;
+}
+
+void tell_news(WorldState& world, PairRecord& pair) {
+    Contact& contact = world.contacts[pair.contact];
+    const bool touching = is_touching(contact);
+    if (touching != contact.touching) {
+        const auto kind = touching ? ContactEventKind::Begin : ContactEventKind::End;
+        world.events.push_back(make_event(world, contact, kind));
+    }
+    contact.touching = touching;
+    if (contact.point_count > 0) return;
+    unlink_contact(world, pair.contact);
+    world.contacts.remove_contact(pair);
+}
+
+// Takes a body where the step brought it; which of its numbers is wrong, if one is.
+std::optional<Quantity> move_body(WorldState& world, std::uint32_t slot) {
+    const BodyMotion& motion = world.motions[slot];
+    const Position moved = world.positions[slot] + motion.displacement;
+    if (!is_sound(motion.linear_velocity)) return Quantity::LinearVelocity;
+    if (!is_sound(motion.angular_velocity)) return Quantity::AngularVelocity;
+    if (!is_finite(motion.displacement) || !is_sound(moved)) return Quantity::Position;
+    if (!is_finite(motion.rotation)) return Quantity::Rotation;
+    world.positions[slot] = moved;
+    return std::nullopt;
 }
 
 }  // namespace
@@ -220,36 +285,45 @@ void find_pairs(WorldState& world, Team& team, double dt) {
 void find_axes(WorldState& world, Team& team, double dt) {
     const StageTimer timer(world, Stage::FindAxes);
     update_ways(world, team, dt);
-    const std::span<PairRecord> pairs = world.contacts.pairs();
     auto& meetings = world.scratch.meetings;
-    if (meetings.size() < pairs.size()) meetings.resize(pairs.size());
-    team.for_range(int(pairs.size()), pairs_a_block, [&](int begin, int end, int) {
-        for (auto i = std::size_t(begin); i < std::size_t(end); ++i)
-            find_axis_of_pair(world, dt, pairs[i], meetings[i]);
+    meetings.resize(std::max(meetings.size(), world.contacts.pairs().size()));
+    for_pair_blocks(world, team, [&](std::span<PairRecord> pairs, std::size_t first, PairBlock&) {
+        for (std::size_t i = 0; i < pairs.size(); ++i)
+            find_axis_of_pair(world, dt, pairs[i], meetings[first + i]);
     });
 }
 
 // Reads axes; writes the normal and points of each contact, and lists the contacts that have any.
 void build_manifolds(WorldState& world, Team& team) {
     const StageTimer timer(world, Stage::BuildManifolds);
-    const std::span<PairRecord> pairs = world.contacts.pairs();
     create_contacts(world);
-    team.for_range(int(pairs.size()), pairs_a_block, [&](int begin, int end, int) {
-        for (auto i = std::size_t(begin); i < std::size_t(end); ++i) {
-            if (pairs[i].is_found) find_points(world, pairs[i], world.scratch.meetings[i]);
-        }
-    });
-    list_active(world);
+    const auto& meetings = world.scratch.meetings;
+    for_pair_blocks(world, team,
+                    [&](std::span<PairRecord> pairs, std::size_t first, PairBlock& block) {
+                        for (std::size_t i = 0; i < pairs.size(); ++i) {
+                            if (pairs[i].is_found)
+                                find_points(world, pairs[i], meetings[first + i]);
+                        }
+                        for (const PairRecord& pair : pairs) {
+                            if (pair.meets)
+                                turn_surface_velocity(world, world.contacts[pair.contact]);
+                        }
+                        count_contacts(world, pairs, block);
+                    });
+    list_active(world, team);
 }
 
 // Reads the contacts that have points; writes the islands. What sleeps and is touched wakes and
 // takes part in this step, with the contacts that it fell asleep with: nothing has moved since.
-void join_islands(WorldState& world, double dt) {
+void join_islands(WorldState& world, Team& team, double dt) {
     const StageTimer timer(world, Stage::BuildManifolds);
     if (!link_contacts(world)) return;
     list_moving(world);
     world.contacts.list_returned();
-    list_active(world);
+    for_pair_blocks(world, team, [&](std::span<PairRecord> pairs, std::size_t, PairBlock& block) {
+        count_contacts(world, pairs, block);
+    });
+    list_active(world, team);
     auto& moving = world.scratch.moving;
     const LargeArray<std::uint32_t> before = moving;
     for (const std::uint32_t slot : world.rest.movers) {
@@ -300,28 +374,20 @@ void advance(WorldState& world, Team& team, double dt) {
 
 // Reads displacements; writes positions. A body whose numbers went wrong goes back to the step's
 // start.
-void move_bodies(WorldState& world) {
+void move_bodies(WorldState& world, Team& team) {
     const StageTimer timer(world, Stage::Finish);
+    const auto& moving = world.scratch.moving;
+    auto& wrong = world.scratch.wrong;
+    wrong.resize(moving.size());
+    team.for_range(int(moving.size()), bodies_a_block, [&](int begin, int end, int) {
+        for (auto k = std::size_t(begin); k < std::size_t(end); ++k)
+            wrong[k] = move_body(world, moving[k]);
+    });
     bool any_frozen = false;
-    for (std::size_t k = 0; k < world.scratch.moving.size(); ++k) {
-        const std::uint32_t slot = world.scratch.moving[k];
-        BodyMotion& motion = world.motions[slot];
-        const Position moved = world.positions[slot] + motion.displacement;
-        std::optional<Quantity> wrong;
-        if (!is_sound(motion.linear_velocity))
-            wrong = Quantity::LinearVelocity;
-        else if (!is_sound(motion.angular_velocity))
-            wrong = Quantity::AngularVelocity;
-        else if (!is_finite(motion.displacement) || !is_sound(moved))
-            wrong = Quantity::Position;
-        else if (!is_finite(motion.rotation))
-            wrong = Quantity::Rotation;
-        if (!wrong) {
-            world.positions[slot] = moved;
-            continue;
-        }
-        motion = world.scratch.before[k];
-        freeze(world, slot, *wrong);
+    for (std::size_t k = 0; k < moving.size(); ++k) {
+        if (!wrong[k]) continue;
+        world.motions[moving[k]] = world.scratch.before[k];
+        freeze(world, moving[k], *wrong[k]);
         any_frozen = true;
     }
     if (!any_frozen) return;
@@ -334,20 +400,20 @@ void move_bodies(WorldState& world) {
 
 // Reads impulses; writes the events of contacts that began or ended, and drops those without
 // points.
-void report_contacts(WorldState& world) {
+void report_contacts(WorldState& world, Team& team) {
     const StageTimer timer(world, Stage::Finish);
-    for (PairRecord& pair : world.contacts.pairs()) {
-        if (pair.contact == ContactStore::none) continue;
-        Contact& contact = world.contacts[pair.contact];
-        const bool touching = is_touching(contact);
-        if (touching != contact.touching) {
-            const auto kind = touching ? ContactEventKind::Begin : ContactEventKind::End;
-            world.events.push_back(make_event(world, contact, kind));
+    for_pair_blocks(world, team, [&](std::span<PairRecord> pairs, std::size_t, PairBlock& block) {
+        block.has_news = false;
+        for (PairRecord& pair : pairs) {
+            pair.has_news =
+                pair.contact != ContactStore::none && has_news(world.contacts[pair.contact]);
+            block.has_news = block.has_news || pair.has_news;
         }
-        contact.touching = touching;
-        if (contact.point_count > 0) continue;
-        unlink_contact(world, pair.contact);
-        world.contacts.remove_contact(pair);
+    });
+    const std::span<PairRecord> pairs = world.contacts.pairs();
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+        if (!world.scratch.pair_blocks[i / pairs_a_block].has_news) continue;
+        if (pairs[i].has_news) tell_news(world, pairs[i]);
     }
 }
 

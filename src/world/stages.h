@@ -9,10 +9,10 @@ void apply_changes(WorldState& world, double dt);
 void find_pairs(WorldState& world, Team& team, double dt);
 void find_axes(WorldState& world, Team& team, double dt);
 void build_manifolds(WorldState& world, Team& team);
-void join_islands(WorldState& world, double dt);
+void join_islands(WorldState& world, Team& team, double dt);
 void advance(WorldState& world, Team& team, double dt);
-void move_bodies(WorldState& world);
-void report_contacts(WorldState& world);
+void move_bodies(WorldState& world, Team& team);
+void report_contacts(WorldState& world, Team& team);
 void put_to_rest(WorldState& world, double dt);
 
 }  // namespace cairn

@@ -65,6 +65,14 @@ struct Meeting {
     float within = 0;  // points farther apart than this are left out
 };
 
+// What a stage found in one block of the list of pairs.
+struct PairBlock {
+    std::uint32_t contact_count = 0;  // pairs that meet
+    std::uint32_t point_count = 0;
+    std::uint32_t reused_count = 0;
+    bool has_news = false;  // a contact began, ended or has no points
+};
+
 struct WorldState {
     WorldSettings settings;
     std::function<void(const Error&)> on_error;
@@ -105,11 +113,15 @@ struct WorldState {
         LargeArray<Pair> pairs, found_pairs, merged_pairs;
         std::vector<LargeArray<Pair>> found_parts;  // by worker
         LargeArray<Proxy> new_proxies;
-        LargeArray<std::uint32_t> updated;  // shapes
+        LargeArray<std::uint32_t> updated;      // shapes
+        LargeArray<std::uint8_t> escaped;       // likewise: whether its box must go to the tree
+        LargeArray<std::uint32_t> kept_counts;  // by block of pairs
         LargeArray<std::uint32_t> moving;
-        LargeArray<Meeting> meetings;  // by place in the list of pairs
+        LargeArray<Meeting> meetings;       // by place in the list of pairs
+        LargeArray<PairBlock> pair_blocks;  // of that list
         LargeArray<std::uint32_t> active;
         LargeArray<BodyMotion> before;
+        LargeArray<std::optional<Quantity>> wrong;  // as `moving`: which of its numbers
         LargeArray<float> heights;
         DenseBodies dense;
     } scratch;
