@@ -394,7 +394,10 @@ void build_contact_points(const WorldState& world, const Meeting& meeting, float
     const bool round_a = is_round(a.def.geometry), round_b = is_round(b.def.geometry);
     const Manifold manifold = build_manifold(a.def.geometry, b.def.geometry, meeting.b_in_a,
                                              meeting.axis, max_separation);
-    const Mat3 axes_a = to_matrix(meeting.rotation_a), b_to_a = to_matrix(meeting.b_in_a.rotation);
+    // B's arm goes by way of the world, so that both end at the same place there to the last digit:
+    // what a turn between the two frames rounds away moves a house of cards.
+    const Mat3 axes_a = to_matrix(meeting.rotation_a);
+    const Mat3 axes_b = to_matrix(shape_rotation(world, b));
     contact.normal = normalize_or(axes_a * manifold.normal, {0, 1, 0});
     contact.point_count = 0;
     for (int i = 0; i < manifold.point_count; ++i) {
@@ -403,9 +406,10 @@ void build_contact_points(const WorldState& world, const Meeting& meeting, float
             continue;
         ContactPoint& point = contact.points[std::size_t(contact.point_count++)];
         point = {};
+        const Vec3 from_b = axes_a * from.from_b;
         point.arm_a = round_a ? make_round_arm(a, axes_a * from.from_a) : make_arm(a, from.from_a);
-        point.arm_b = round_b ? make_round_arm(b, axes_a * from.from_b)
-                              : make_arm(b, multiply_transposed(b_to_a, from.from_b));
+        point.arm_b =
+            round_b ? make_round_arm(b, from_b) : make_arm(b, multiply_transposed(axes_b, from_b));
         point.separation = from.separation;
         point.feature = from.feature;
     }
