@@ -161,7 +161,8 @@ Status World::set_settings(const WorldSettings& settings) {
         state_->solver = make_solver(settings.step.solver);
     if (settings.step.narrow_phase != state_->settings.step.narrow_phase) forget_sightings(*state_);
     if (settings.step.broad_phase != state_->settings.step.broad_phase) forget_pairs(*state_);
-    const bool wakes = settings.gravity != state_->settings.gravity || !settings.sleeping;
+    const bool forbids_sleep = state_->settings.sleeping && !settings.sleeping;
+    const bool wakes = settings.gravity != state_->settings.gravity || forbids_sleep;
     state_->settings = settings;
     if (wakes) wake_all(*state_);
     return Done{};

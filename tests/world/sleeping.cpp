@@ -422,6 +422,17 @@ TEST_CASE("a change of gravity, or sleeping switched off, wakes everything") {
     CHECK(other.last_step().awake_count == 3);
 }
 
+TEST_CASE("the settings said once more wake nobody, though sleeping is off") {
+    World world = make_world(Solver::SoftStep, false);
+    const BodyId box = add_box(world, {0, 3, 0});
+    step(world, 1);
+    REQUIRE(world.set_awake(box, false).ok());
+    WorldSettings settings = world.settings();
+    settings.step.lanes = 1;
+    REQUIRE(world.set_settings(settings).ok());
+    CHECK(!world.is_awake(box));
+}
+
 TEST_CASE("a ball that rolls by a two hundredth of its radius a second never stops") {
     for (const Solver solver : solvers) {
         CAPTURE(int(solver));
