@@ -88,6 +88,9 @@ void add_run_options(CLI::App& app, tool::RunCommand& run) {
     app.add_option("--sample-every", options.sample_every, "samples in the result, every K steps")
         ->check(CLI::PositiveNumber);
     app.add_option("--replay", run.replay, "write a page that plays the run, FILE.html");
+    app.add_option("--trace", run.trace,
+                   "write what the steps did when, a row a thread, FILE.json for "
+                   "chrome://tracing or ui.perfetto.dev");
     app.add_flag("--quiet", run.quiet, "no progress bar, no summary");
 }
 

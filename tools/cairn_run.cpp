@@ -1,4 +1,5 @@
-// `cairn run`: loads, plans, steps, writes the result and the replay, and says how it went.
+// `cairn run`: loads, plans, steps, writes the result, the replay and the trace, and says how it
+// went.
 //
 // With `--json -` standard output carries the result alone, and the summary goes to standard error.
 
@@ -19,6 +20,7 @@
 #include "scene/builtin.h"
 #include "scene/json_tree.h"
 #include "scene/replay.h"
+#include "scene/trace.h"
 
 namespace cairn::tool {
 
@@ -82,6 +84,8 @@ Status check_usage(const RunCommand& command) {
     };
     Status threads = check_count(command.threads, max_thread_count, "--threads");
     if (!threads) return threads;
+    if (command.trace == "-")
+        return Error{ErrorCode::OutOfRange, "--trace: found -; allowed: a file"};
     return command.lanes == 0 ? Status(Done{}) : check_count(command.lanes, 1024, "--lanes");
 }
 
@@ -164,6 +168,9 @@ void print_summary(std::FILE* out, const BuiltWorld& built, const RunPlan& plan,
         fmt::print(out, "  real time    {:.3g} times as fast\n", 1000 * simulated / total_ms);
 }
 
+// The last of a long run: 4 MB a thread, some hundreds of a large world's steps.
+constexpr std::size_t trace_spans_a_thread = std::size_t{1} << 17;
+
 struct Attempt {
     BuiltWorld built;
     RunPlan plan;
@@ -191,12 +198,22 @@ int deliver(const RunCommand& command, const Attempt& attempt) {
             status = fail(went_wrong, "the replay was not written: " + written.error().message);
         }
     }
+    Trace trace;
+    if (!command.trace.empty()) {
+        trace = attempt.built.world.trace();
+        const Status written = write_text(command.trace, scene::trace_to_json(trace.spans));
+        if (!written)
+            status = fail(went_wrong, "the trace was not written: " + written.error().message);
+    }
     if (!command.quiet) {
         std::FILE* out = command.json == "-" ? stderr : stdout;
         print_summary(out, attempt.built, attempt.plan, attempt.record);
         if (!command.json.empty() && command.json != "-")
             fmt::print(out, "  result       {}\n", command.json);
         if (attempt.recorder) fmt::print(out, "  replay       {}\n", command.replay);
+        if (!command.trace.empty())
+            fmt::print(out, "  trace        {}{}\n", command.trace,
+                       trace.forgotten_count > 0 ? ", of the last steps" : "");
     }
     return status;
 }
@@ -213,7 +230,8 @@ int run(const RunCommand& command) {
     Result<RunPlan> plan = scene::plan_run(std::move(scene), command.options);
     if (!plan) return fail(bad_usage, plan.error().message);
     for (const auto& [path, flag] :
-         {std::pair(command.json, "--json"), std::pair(command.replay, "--replay")}) {
+         {std::pair(command.json, "--json"), std::pair(command.replay, "--replay"),
+          std::pair(command.trace, "--trace")}) {
         if (const Status status = check_writable(path, flag); !status) {
             return fail(bad_usage, status.error().message);
         }
@@ -225,6 +243,7 @@ int run(const RunCommand& command) {
     attempt.plan.threads = static_cast<int>(command.threads);
     const Status threads = attempt.built.world.set_threads({.count = attempt.plan.threads});
     if (!threads) return fail(went_wrong, threads.error().message);
+    if (!command.trace.empty()) (void)attempt.built.world.set_trace(trace_spans_a_thread);
     if (!command.replay.empty())
         attempt.recorder.emplace(attempt.built.world, make_replay_info(attempt));
     ProgressBar bar(attempt.plan.steps, !command.quiet);

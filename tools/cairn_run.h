@@ -16,6 +16,7 @@ struct RunCommand {
     std::int64_t lanes = 0;  // 0: as many as the processor can
     std::string json;        // a path, "-", or empty
     std::string replay;      // a path, or empty
+    std::string trace;       // a path, or empty
     bool quiet = false;
 };
 

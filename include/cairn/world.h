@@ -23,6 +23,7 @@
 #include "cairn/settings.h"
 #include "cairn/shape.h"
 #include "cairn/threads.h"
+#include "cairn/trace.h"
 
 namespace cairn {
 
@@ -118,6 +119,13 @@ public:
 
     // What the step did.
 
+    /// From here on the world keeps what its steps do when, up to so many spans of each thread, 32
+    /// bytes each, the latest: a stage is one span, a large step some hundreds a thread. 0: no
+    /// longer. Never changes a result, and costs a step two looks at the clock a span. A copy of
+    /// the world keeps none; other threads begin anew. An error above max_trace_spans.
+    Status set_trace(std::size_t spans_a_thread);
+    /// All that was kept since set_trace().
+    Trace trace() const;
     const StepReport& last_step() const;
     /// Contacts that began and ended in the last step, in the order of their shapes.
     std::span<const ContactEvent> contact_events() const;

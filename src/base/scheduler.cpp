@@ -68,8 +68,8 @@ public:
     void close() { is_open_.store(false, std::memory_order_release); }
 
     // At most as many stages as the board holds. Only while open, by the opener.
-    void run(std::span<const TeamStage> stages) {
-        const StageBoard::Ticket first = board_.publish(stages);
+    void run(std::span<const TeamStage> stages, StageTrace* trace) {
+        const StageBoard::Ticket first = board_.publish(stages, trace);
         Walk walk = {&board_, first, board_.end()};
         if (host_.run != nullptr) {
             host_.run(host_.host_context, worker_count(), &Scheduler::enter_host_job, &walk);
@@ -158,7 +158,9 @@ void SharedScheduler::let_go() const noexcept {
         delete scheduler_;
 }
 
-Team::Team(const SharedScheduler& scheduler) {
+int SharedScheduler::worker_count() const { return scheduler_ ? scheduler_->worker_count() : 1; }
+
+Team::Team(const SharedScheduler& scheduler, StageTrace* trace) : trace_(trace) {
     if (!scheduler || !scheduler.get()->open()) return;
     scheduler_ = scheduler;
     worker_count_ = scheduler.get()->worker_count();
@@ -179,7 +181,7 @@ void Team::run_stages(std::span<const TeamStage> stages) {
     running_ = true;
     while (!stages.empty()) {
         const std::size_t size = std::min(stages.size(), StageBoard::capacity);
-        scheduler_.get()->run(stages.first(size));
+        scheduler_.get()->run(stages.first(size), trace_);
         stages = stages.subspan(size);
     }
     running_ = false;

@@ -45,6 +45,7 @@ struct TeamStage {
 };
 
 class Scheduler;
+class StageTrace;
 
 // A scheduler that worlds share: their copies, too, hold the same. It ends with the last of its
 // holders. Empty where there is none but the caller's thread. It counts by itself: of the
@@ -67,6 +68,8 @@ public:
     ~SharedScheduler() { let_go(); }
 
     Scheduler* get() const { return scheduler_; }
+    // Of a team that has it; 1 where there is none.
+    int worker_count() const;
     explicit operator bool() const { return get() != nullptr; }
 
 private:
@@ -85,7 +88,8 @@ Result<SharedScheduler> make_scheduler(const Threads& threads);
 // may make one of its own, which then is the caller alone.
 class Team {
 public:
-    explicit Team(const SharedScheduler& scheduler);
+    // What its workers do goes into the trace, if there is one, which outlives it.
+    explicit Team(const SharedScheduler& scheduler, StageTrace* trace = nullptr);
     ~Team();
     Team(const Team&) = delete;
     Team& operator=(const Team&) = delete;
@@ -110,6 +114,7 @@ public:
 
 private:
     SharedScheduler scheduler_;
+    StageTrace* trace_;
     int worker_count_ = 1;
     bool running_ = false;
 };

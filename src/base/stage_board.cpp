@@ -52,7 +52,7 @@ StageBoard::View StageBoard::deal_out(const TeamStage& stage) const {
     return view;
 }
 
-StageBoard::Ticket StageBoard::publish(std::span<const TeamStage> stages) {
+StageBoard::Ticket StageBoard::publish(std::span<const TeamStage> stages, StageTrace* trace) {
     assert(stages.size() <= capacity);
     const Ticket first = end_.load(std::memory_order_relaxed);
     first_.store(first, std::memory_order_release);
@@ -62,6 +62,7 @@ StageBoard::Ticket StageBoard::publish(std::span<const TeamStage> stages) {
         View view = deal_out(stage);
         done_at_end_ += std::uint64_t(view.unit_count);
         view.done_at = done_at_end_;
+        view.trace = trace;
         write((*slots_)[ticket % capacity], view, ticket);
         ++ticket;
     }
@@ -79,6 +80,7 @@ void StageBoard::write(Slot& slot, const View& view, Ticket ticket) {
     slot.unit_count.store(view.unit_count, std::memory_order_release);
     slot.blocks_per_unit.store(view.blocks_per_unit, std::memory_order_release);
     slot.done_at.store(view.done_at, std::memory_order_release);
+    slot.trace.store(view.trace, std::memory_order_release);
     slot.ticket.store(ticket, std::memory_order_release);
 }
 
@@ -93,6 +95,7 @@ bool StageBoard::read(Ticket ticket, View& view) const {
     view.unit_count = slot.unit_count.load(std::memory_order_acquire);
     view.blocks_per_unit = slot.blocks_per_unit.load(std::memory_order_acquire);
     view.done_at = slot.done_at.load(std::memory_order_acquire);
+    view.trace = slot.trace.load(std::memory_order_acquire);
     return slot.ticket.load(std::memory_order_relaxed) == ticket;
 }
 
@@ -102,16 +105,30 @@ StageBoard::Ticket StageBoard::work_on(Ticket ticket, int worker) {
     if (done_.load(std::memory_order_acquire) >= view.done_at) return ticket + 1;
 
     shares_[worker].owner_at.store(ticket, std::memory_order_relaxed);
-    report(work_share(view, ticket, worker) + help(view, ticket, worker, false));
+    do_units(view, worker,
+             [&] { return work_share(view, ticket, worker) + help(view, ticket, worker, false); });
     Patience patience;
     while (done_.load(std::memory_order_acquire) < view.done_at) {
         patience.wait();
         // Once more now and then: an owner may have been put aside by the system since.
         if (patience.waits() % pauses_before_the_last == 0) {
-            report(help(view, ticket, worker, true));
+            do_units(view, worker, [&] { return help(view, ticket, worker, true); });
         }
     }
     return ticket + 1;
+}
+
+// Lets the worker do what units it finds, then tells everyone of them, and hands on what they
+// wrote. Only who has done units may look at the trace: the stage is not over then, and who traces
+// it is still there.
+template <class Work>
+void StageBoard::do_units(const View& view, int worker, const Work& work) {
+    const std::int64_t begin_ns = view.trace != nullptr ? StageTrace::now_ns() : 0;
+    const int units = work();
+    if (units == 0) return;
+    if (view.trace != nullptr)
+        view.trace->record(worker, view.trace->stage(), begin_ns, StageTrace::now_ns());
+    done_.fetch_add(std::uint64_t(units), std::memory_order_acq_rel);
 }
 
 // All that is left of the worker's own share; returns how many units it did.
@@ -170,11 +187,6 @@ void StageBoard::run_unit(const View& view, int unit, int worker) {
         view.call(view.object, begin, begin + size, worker);
         begin += size;
     }
-}
-
-// Tells everyone of finished units, and hands on what they wrote.
-void StageBoard::report(int units) {
-    if (units > 0) done_.fetch_add(std::uint64_t(units), std::memory_order_acq_rel);
 }
 
 }  // namespace cairn

@@ -23,6 +23,7 @@
 #include <span>
 
 #include "base/scheduler.h"
+#include "base/stage_trace.h"
 
 namespace cairn {
 
@@ -38,8 +39,9 @@ public:
     int worker_count() const { return worker_count_; }
 
     // Hangs up at most `capacity` stages, but for those that are empty. Only when all earlier ones
-    // are over, and by one thread at a time. Returns the ticket of the first.
-    Ticket publish(std::span<const TeamStage> stages);
+    // are over, and by one thread at a time. Returns the ticket of the first. What workers do of
+    // them goes into the trace, if there is one.
+    Ticket publish(std::span<const TeamStage> stages, StageTrace* trace = nullptr);
     // One past the last ticket that was published. A worker reads it to see whether there is work,
     // before it goes to sleep too, which is why it is sequentially consistent.
     Ticket end() const { return end_.load(std::memory_order_seq_cst); }
@@ -60,6 +62,7 @@ private:
         int unit_count = 0;
         int blocks_per_unit = 1;
         std::uint64_t done_at = 0;  // how many units, of all stages ever, when it is over
+        StageTrace* trace = nullptr;
     };
     struct Slot {
         std::atomic<Ticket> ticket{0};
@@ -70,6 +73,7 @@ private:
         std::atomic<int> unit_count{0};
         std::atomic<int> blocks_per_unit{1};
         std::atomic<std::uint64_t> done_at{0};
+        std::atomic<StageTrace*> trace{nullptr};
     };
     // One worker's share of the stage that it says. A cache line each, mostly its owner's.
     struct alignas(64) Share {
@@ -86,7 +90,8 @@ private:
     int work_share(const View& view, Ticket ticket, int worker);
     int help(const View& view, Ticket ticket, int worker, bool with_the_last);
     static void run_unit(const View& view, int unit, int worker);
-    void report(int units);
+    template <class Work>
+    void do_units(const View& view, int worker, const Work& work);
 
     const int worker_count_;
     std::unique_ptr<Share[]> shares_;

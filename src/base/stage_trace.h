@@ -5,11 +5,15 @@
 // its oldest. Read it between steps, by the thread that steps. Nothing here may ever reach a
 // result.
 //
+// The thread that steps says which stage it is in; what a team's workers do meanwhile is named
+// after it.
+//
 //     TraceScope scope(trace, worker, "solve contacts");   // until the end of the block; null: off
 
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "cairn/trace.h"
@@ -29,6 +33,11 @@ public:
     // How many spans were recorded since the last clear() and are forgotten.
     std::uint64_t forgotten_count() const;
     void clear();
+    std::size_t spans_per_worker() const { return rings_.empty() ? 0 : rings_[0].spans.size(); }
+
+    // By the thread that steps, between two runs of its team.
+    void enter_stage(const char* name) { stage_ = name; }
+    const char* stage() const { return stage_; }
 
     static std::int64_t now_ns() {
         using std::chrono::nanoseconds;
@@ -43,6 +52,31 @@ private:
         std::uint64_t recorded = 0;
     };
     std::vector<Ring> rings_;
+    const char* stage_ = "";
+};
+
+// The trace of one world: a copy of the world begins without.
+class OwnTrace {
+public:
+    OwnTrace() = default;
+    OwnTrace(const OwnTrace&) {}
+    OwnTrace(OwnTrace&&) noexcept = default;
+    OwnTrace& operator=(const OwnTrace&) {
+        trace_.reset();
+        return *this;
+    }
+    OwnTrace& operator=(OwnTrace&&) noexcept = default;
+
+    // 0 spans: none.
+    void begin(int worker_count, std::size_t spans_per_worker) {
+        trace_.reset();
+        if (spans_per_worker > 0)
+            trace_ = std::make_unique<StageTrace>(worker_count, spans_per_worker);
+    }
+    StageTrace* get() const { return trace_.get(); }
+
+private:
+    std::unique_ptr<StageTrace> trace_;
 };
 
 class TraceScope {

@@ -129,6 +129,11 @@ Penetration World::penetration(std::span<const ContactReport> contacts) {
     return result;
 }
 
+Trace World::trace() const {
+    const StageTrace* trace = state_->trace.get();
+    return trace == nullptr ? Trace{} : Trace{trace->spans(), trace->forgotten_count()};
+}
+
 const StepReport& World::last_step() const { return state_->report; }
 std::span<const ContactEvent> World::contact_events() const { return state_->events; }
 std::span<const NonFinite> World::non_finite() const { return state_->non_finite; }

@@ -12,11 +12,16 @@ namespace cairn {
 
 namespace {
 
-// Adds the wall time of its own life to one stage of the report. Times are no part of the state.
+// Adds the wall time of its own life to one stage of the report, and to the trace, if there is
+// one, under a name of its own. Times are no part of the state.
 class StageTimer {
 public:
-    StageTimer(WorldState& world, Stage stage)
-        : seconds_(world.report.stage_seconds[std::size_t(stage)]), start_(Clock::now()) {}
+    StageTimer(WorldState& world, Stage stage, const char* name)
+        : seconds_(world.report.stage_seconds[std::size_t(stage)]),
+          start_(Clock::now()),
+          scope_(world.trace.get(), 0, name) {
+        if (StageTrace* trace = world.trace.get()) trace->enter_stage(name);
+    }
     ~StageTimer() { seconds_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
     StageTimer(const StageTimer&) = delete;
     StageTimer& operator=(const StageTimer&) = delete;
@@ -25,6 +30,7 @@ private:
     using Clock = std::chrono::steady_clock;
     double& seconds_;
     Clock::time_point start_;
+    TraceScope scope_;
 };
 
 // Beyond these, products of two numbers leave binary32 and take everything in touch with them
@@ -257,6 +263,7 @@ std::optional<Quantity> move_body(WorldState& world, std::uint32_t slot) {
 
 // Reads what the user set; writes the drives and the list of bodies that move.
 void apply_changes(WorldState& world, double dt) {
+    const TraceScope scope(world.trace.get(), 0, "apply-changes");
     world.report.stage_seconds = {};
     ++world.report.step;
     world.report.time += dt;
@@ -269,7 +276,7 @@ void apply_changes(WorldState& world, double dt) {
 
 // Reads poses and velocities; renews the list of contacts, ends those whose boxes parted.
 void find_pairs(WorldState& world, Team& team, double dt) {
-    const StageTimer timer(world, Stage::FindPairs);
+    const StageTimer timer(world, Stage::FindPairs, "find-pairs");
     find_step_pairs(world, team, dt, world.scratch.pairs);
     world.contacts.begin_renewal();
     for (const Pair& pair : world.scratch.pairs) world.contacts.renew(pair.a, pair.b);
@@ -283,7 +290,7 @@ void find_pairs(WorldState& world, Team& team, double dt) {
 // Reads the listed pairs; writes the axis of each that is within reach, and brings contacts to the
 // present whose bodies hardly moved against each other.
 void find_axes(WorldState& world, Team& team, double dt) {
-    const StageTimer timer(world, Stage::FindAxes);
+    const StageTimer timer(world, Stage::FindAxes, "find-axes");
     update_ways(world, team, dt);
     auto& meetings = world.scratch.meetings;
     meetings.resize(std::max(meetings.size(), world.contacts.pairs().size()));
@@ -295,7 +302,7 @@ void find_axes(WorldState& world, Team& team, double dt) {
 
 // Reads axes; writes the normal and points of each contact, and lists the contacts that have any.
 void build_manifolds(WorldState& world, Team& team) {
-    const StageTimer timer(world, Stage::BuildManifolds);
+    const StageTimer timer(world, Stage::BuildManifolds, "build-manifolds");
     create_contacts(world);
     const auto& meetings = world.scratch.meetings;
     for_pair_blocks(world, team,
@@ -316,7 +323,7 @@ void build_manifolds(WorldState& world, Team& team) {
 // Reads the contacts that have points; writes the islands. What sleeps and is touched wakes and
 // takes part in this step, with the contacts that it fell asleep with: nothing has moved since.
 void join_islands(WorldState& world, Team& team, double dt) {
-    const StageTimer timer(world, Stage::BuildManifolds);
+    const StageTimer timer(world, Stage::BuildManifolds, "join-islands");
     if (!link_contacts(world)) return;
     list_moving(world);
     world.contacts.list_returned();
@@ -335,7 +342,7 @@ void join_islands(WorldState& world, Team& team, double dt) {
 
 // Reads everything above; writes velocities, rotations, displacements and impulses.
 void advance(WorldState& world, Team& team, double dt) {
-    const StageTimer timer(world, Stage::Solve);
+    const StageTimer timer(world, Stage::Solve, "solve");
     find_heights(world);
     auto& before = world.scratch.before;
     before.clear();
@@ -375,7 +382,7 @@ void advance(WorldState& world, Team& team, double dt) {
 // Reads displacements; writes positions. A body whose numbers went wrong goes back to the step's
 // start.
 void move_bodies(WorldState& world, Team& team) {
-    const StageTimer timer(world, Stage::Finish);
+    const StageTimer timer(world, Stage::Finish, "move-bodies");
     const auto& moving = world.scratch.moving;
     auto& wrong = world.scratch.wrong;
     wrong.resize(moving.size());
@@ -401,7 +408,7 @@ void move_bodies(WorldState& world, Team& team) {
 // Reads impulses; writes the events of contacts that began or ended, and drops those without
 // points.
 void report_contacts(WorldState& world, Team& team) {
-    const StageTimer timer(world, Stage::Finish);
+    const StageTimer timer(world, Stage::Finish, "report-contacts");
     for_pair_blocks(world, team, [&](std::span<PairRecord> pairs, std::size_t, PairBlock& block) {
         block.has_news = false;
         for (PairRecord& pair : pairs) {
@@ -419,7 +426,7 @@ void report_contacts(WorldState& world, Team& team) {
 
 // Reads what each body has done; writes who sleeps from here on.
 void put_to_rest(WorldState& world, double dt) {
-    const StageTimer timer(world, Stage::Finish);
+    const StageTimer timer(world, Stage::Finish, "put-to-rest");
     find_sleepers(world, dt);
 }
 

@@ -23,7 +23,8 @@ const SharedScheduler& choose_scheduler(const WorldState& world) {
 
 void step_world(WorldState& world, double dt) {
     const FloatEnvironment ieee;
-    Team team(choose_scheduler(world));  // who shares the loops below
+    // Who shares the loops below.
+    Team team(choose_scheduler(world), world.trace.get());
 
     apply_changes(world, dt);       // the user's forces; what is not finite is frozen here
     find_pairs(world, team, dt);    // broad phase: which boxes overlap

@@ -172,6 +172,19 @@ Status World::set_threads(const Threads& threads) {
     Result<SharedScheduler> scheduler = make_scheduler(threads);
     if (!scheduler) return tell(*state_, "set_threads", scheduler.error());
     state_->scheduler = *scheduler;
+    if (const StageTrace* trace = state_->trace.get())
+        state_->trace.begin(scheduler->worker_count(), trace->spans_per_worker());
+    return Done{};
+}
+
+Status World::set_trace(std::size_t spans_a_thread) {
+    if (spans_a_thread > max_trace_spans) {
+        return tell(
+            *state_, "set_trace",
+            Error{ErrorCode::OutOfRange, "spans_a_thread is " + std::to_string(spans_a_thread) +
+                                             ", allowed: 0 to " + std::to_string(max_trace_spans)});
+    }
+    state_->trace.begin(state_->scheduler.worker_count(), spans_a_thread);
     return Done{};
 }
 
@@ -468,6 +481,7 @@ Status World::set_mass_properties(BodyId id, const MassProperties& properties) {
 
 Status World::step(double dt) {
     if (const Refusal r = check_positive("dt", dt)) return tell(*state_, "step", *r);
+    const TraceScope scope(state_->trace.get(), 0, "step");
     step_world(*state_, dt);
     return Done{};
 }

@@ -10,6 +10,7 @@
 
 #include "base/large_array.h"
 #include "base/scheduler.h"
+#include "base/stage_trace.h"
 #include "broad/brute_force.h"
 #include "broad/tree_pairs.h"
 #include "cairn/world.h"
@@ -78,6 +79,7 @@ struct WorldState {
     std::function<void(const Error&)> on_error;
     SolverState solver;
     SharedScheduler scheduler;  // copies share it
+    OwnTrace trace;
 
     // By body slot.
     LargeArray<BodyRecord> bodies;

@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -209,6 +210,53 @@ TEST_CASE("bad usage is refused with status 2 and one line") {
     check_refused("check - --set a=1", "--set", "{\"cairn\": 1}");
     check_refused("report", "not yet part of this version");
     check_refused("report --solver xpbd", "not yet part of this version");
+}
+
+TEST_CASE(
+    "a trace holds each step on the caller's row, its stages within, and a second thread's work") {
+    const Scratch scratch;
+    const std::string path = scratch.file("trace.json");
+    const Outcome outcome =
+        call("run pyramid --set base=40 --steps 60 --threads 2 --trace " + path);
+    REQUIRE(outcome.status == 0);
+    CHECK(outcome.out.find("trace        " + path) != std::string::npos);
+    const auto json = nlohmann::json::parse(read_all(path));
+
+    std::map<int, std::vector<double>> open;  // by thread: ends of the spans not over yet
+    std::map<std::string, int> counts;
+    double last = 0;
+    for (const auto& event : json.at("traceEvents")) {
+        if (event.at("ph") == "M") continue;
+        const double begin = event.at("ts");
+        const double end = begin + event.at("dur").get<double>();
+        const int thread = event.at("tid");
+        CHECK(begin >= last);
+        last = begin;
+        // What began is over before a span begins, or holds all of it; half a nanosecond is the
+        // rounding of the sum.
+        auto& ends = open[thread];
+        while (!ends.empty() && ends.back() <= begin + 0.0005) ends.pop_back();
+        if (!ends.empty()) CHECK(end <= ends.back() + 0.0005);
+        const bool is_stage = thread == 0 && ends.size() == 1;
+        ends.push_back(end);
+        const std::string name = event.at("name");
+        if (thread == 0 && ends.size() == 1) CHECK(name == "step");
+        if (name == "step" || is_stage) ++counts[name];
+        if (thread == 1) ++counts["on the second thread"];
+    }
+    for (const char* name :
+         {"step", "apply-changes", "find-pairs", "find-axes", "build-manifolds", "join-islands",
+          "solve", "move-bodies", "report-contacts", "put-to-rest"}) {
+        CAPTURE(name);
+        CHECK(counts[name] == 60);
+    }
+    CHECK(counts["on the second thread"] > 0);
+}
+
+TEST_CASE("a trace that cannot be written is refused before the run") {
+    check_refused("run drop --trace /nowhere/at/all.json", "--trace /nowhere/at/all.json");
+    check_refused("run drop --trace -", "--trace: found -; allowed: a file");
+    check_refused("run drop --trace", "--trace");
 }
 
 TEST_CASE("a broken scene is refused by run and by check, with the path, and writes no result") {

@@ -29,6 +29,7 @@ using namespace cairn::soak;
 
 struct Failure {
     const char* what = nullptr;
+    BodyId body = {};  // where one is to blame
 };
 
 bool is_finite(const BodyState& state) {
@@ -50,15 +51,15 @@ Failure inspect(const World& world) {
     std::size_t asleep = 0;
     for (const BodyId body : world.bodies()) {
         const BodyState state = world.state(body);
-        if (!is_finite(state)) return {"a state that is not finite, and nobody said so"};
+        if (!is_finite(state)) return {"a state that is not finite, and nobody said so", body};
         if (state.position.y < -1 || std::abs(state.position.x) > pit_half_width + 1 ||
             std::abs(state.position.z) > pit_half_width + 1) {
-            return {"a body left the pit through a wall or the floor"};
+            return {"a body left the pit through a wall or the floor", body};
         }
         if (!state.asleep) continue;
         ++asleep;
         if (state.linear_velocity != Vec3{} || state.angular_velocity != Vec3{})
-            return {"a body moves in its sleep"};
+            return {"a body moves in its sleep", body};
     }
     if (asleep != world.last_step().asleep_count) return {"sleepers that nobody counted"};
     for (const ContactReport& contact : world.contacts()) {
@@ -112,6 +113,20 @@ Failure look_closer(World& world, const Kind& kind, int step, Dice& dice) {
     return {};
 }
 
+void describe(const World& world, const Failure& failure) {
+    const StepSettings& step = world.settings().step;
+    std::printf("  solver %d, %d substeps of %d iterations, narrow phase %d, reuse %d\n",
+                static_cast<int>(step.solver), step.substeps, step.iterations,
+                static_cast<int>(step.narrow_phase), step.reuse_contacts ? 1 : 0);
+    if (!failure.body) return;
+    const BodyState s = world.state(failure.body);
+    std::printf("  body %" PRIu32 " of kind %d and %g kg at (%g, %g, %g), going (%g, %g, %g) m/s\n",
+                failure.body.index, static_cast<int>(s.kind),
+                static_cast<double>(world.mass_properties(failure.body).mass), s.position.x,
+                s.position.y, s.position.z, static_cast<double>(s.linear_velocity.x),
+                static_cast<double>(s.linear_velocity.y), static_cast<double>(s.linear_velocity.z));
+}
+
 // The life of one world; `step` is where something failed. A whole life's last state goes into
 // `hash`.
 Failure run_world(const Kind& kind, std::uint64_t seed, int& step, double seconds_left,
@@ -124,7 +139,10 @@ Failure run_world(const Kind& kind, std::uint64_t seed, int& step, double second
         if (!world.step(dt).ok()) return {"a step was refused"};
         Failure failure = inspect(world);
         if (failure.what == nullptr) failure = look_closer(world, kind, step, dice);
-        if (failure.what != nullptr) return failure;
+        if (failure.what != nullptr) {
+            describe(world, failure);
+            return failure;
+        }
         const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
         if (spent.count() > seconds_left) return {};
     }
