@@ -455,6 +455,8 @@ Status World::set_kind(BodyId id, BodyKind kind) {
     }
     const Result<MassProperties> mass = resolve_mass(body, kind, defs);
     if (!mass) return tell(world, "set_kind", mass.error());
+    // As what it was: it wakes, and so do the contacts that it sleeps with.
+    note_change(world, id.index);
     world.drives[id.index].kind = kind;
     if (kind == BodyKind::Static) {
         world.motions[id.index].linear_velocity = {};
@@ -462,7 +464,6 @@ Status World::set_kind(BodyId id, BodyKind kind) {
     }
     assign_mass(world, id.index, *mass);
     update_membership(world, id.index);
-    note_change(world, id.index);
     return Done{};
 }
 

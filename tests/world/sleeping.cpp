@@ -401,6 +401,30 @@ TEST_CASE("a static body put into a sleeping one, or a new one made there, wakes
     CHECK(other.position(box).x < -0.02);
 }
 
+TEST_CASE("a sleeping box that becomes static and goes leaves its slots no contact of its own") {
+    for (const Solver solver : solvers) {
+        CAPTURE(int(solver));
+        World world = make_world(solver);
+        add_ground(world);
+        const BodyId late = add_ball(world, {10, 3, 0}, {}, 0.2f);
+        const BodyId first = add_box(world, {0, 0.5, 0});
+        REQUIRE(world.set_can_sleep(late, false).ok());
+        REQUIRE(step_until_asleep(world, first) >= 0);
+        step(world, 2);  // its contacts are put aside
+        REQUIRE(world.set_kind(first, BodyKind::Static).ok());
+        step(world, 1);
+        REQUIRE(world.destroy_body(first).ok());
+        // Another body takes the shape's slot, a third the body's.
+        REQUIRE(world.create_shape(late, {.geometry = Sphere{0.5f}}).ok());
+        const BodyId third = add_box(world, {0, 0.5, 0});
+        REQUIRE(step_until_asleep(world, third) >= 0);
+        REQUIRE(world.set_awake(third, true).ok());
+        step(world, 200);
+        CHECK(world.position(late).y > 0.49);
+        CHECK(world.position(third).y > 0.49);
+    }
+}
+
 TEST_CASE("a change of gravity, or sleeping switched off, wakes everything") {
     World world = make_world();
     add_ground(world);
