@@ -135,7 +135,9 @@ Failure run_world(const Kind& kind, std::uint64_t seed, int& step, double second
     Dice dice(seed);
     World world = make_world(kind, dice);
     for (step = 0; step < kind.steps; ++step) {
-        if (dice.one_in(kind.steps_a_change)) change(world, kind, Dice(dice.next()));
+        // Now and then several in a row, so that slots are used again before a step has seen them.
+        const int changes = dice.one_in(kind.steps_a_change) ? 1 + 3 * (dice.below(4) / 3) : 0;
+        for (int i = 0; i < changes; ++i) change(world, kind, Dice(dice.next()));
         if (!world.step(dt).ok()) return {"a step was refused"};
         Failure failure = inspect(world);
         if (failure.what == nullptr) failure = look_closer(world, kind, step, dice);
