@@ -134,6 +134,7 @@ Failure run_world(const Kind& kind, std::uint64_t seed, int& step, double second
     const auto begin = std::chrono::steady_clock::now();
     Dice dice(seed);
     World world = make_world(kind, dice);
+    change_way(world, dice);
     for (step = 0; step < kind.steps; ++step) {
         // Now and then several in a row, so that slots are used again before a step has seen them.
         const int changes = dice.one_in(kind.steps_a_change) ? 1 + 3 * (dice.below(4) / 3) : 0;

@@ -66,7 +66,7 @@ BodyDef roll_small_body(int i, Dice& dice) {
     return def;
 }
 
-void change_settings(World& world, Dice& dice) {
+void change_settings(World& world, const Kind& kind, Dice& dice) {
     // 0 leaves a method its own budget, as half of all rolls do.
     const auto roll_budget = [&](int most) {
         const bool is_default = dice.one_in(2);
@@ -78,8 +78,8 @@ void change_settings(World& world, Dice& dice) {
     if (dice.one_in(2)) settings.step.solver = Solver::SoftStep;
     if (dice.one_in(3)) settings.step.solver = Solver::Xpbd;
     settings.step.narrow_phase = dice.one_in(2) ? NarrowPhase::Sat : NarrowPhase::GjkEpa;
-    settings.step.iterations = roll_budget(15);
-    settings.step.substeps = roll_budget(20);
+    settings.step.iterations = roll_budget(kind.most_iterations);
+    settings.step.substeps = roll_budget(kind.most_substeps);
     settings.step.reuse_contacts = !dice.one_in(3);
     settings.sleeping = !dice.one_in(4);
     settings.sleep_time = dice.between(0.1f, 1);
@@ -189,7 +189,7 @@ void change(World& world, const Kind& kind, Dice dice) {
         case 2: change_shapes(world, body, dice); break;
         case 3:
         case 4: change_nature(world, body, dice); break;
-        case 5: change_settings(world, dice); break;
+        case 5: change_settings(world, kind, dice); break;
         case 6:
             (void)world.set_pose(body, roll_body(dice).position, rotation_about({0, 1, 1}, 1));
             break;

@@ -18,10 +18,11 @@ struct Kind {
     int steps;                 // of one life
     int steps_a_change;        // on average
     int steps_a_copy;          // from one look at a copy to the next
+    int most_iterations, most_substeps;
 };
-inline constexpr Kind pit = {8, 60, 4000, 6, 400};
+inline constexpr Kind pit = {8, 60, 4000, 6, 400, 15, 20};
 // Bodies and pairs enough for a step to be shared by threads.
-inline constexpr Kind crowd = {560, 680, 240, 2, 80};
+inline constexpr Kind crowd = {560, 680, 240, 2, 80, 4, 6};
 
 // A pit whose floor and walls are planes, with a block in it; a crowd's bodies are about to fall.
 World make_world(const Kind& kind, Dice& dice);
