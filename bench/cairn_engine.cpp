@@ -2,6 +2,7 @@
 // others name a solver.
 
 #include "cairn/cairn.h"
+#include "cairn_scene.h"
 #include "engine.h"
 
 namespace cairn::bench {
@@ -20,15 +21,6 @@ constexpr Variant variants[] = {
     {"cairn:xpbd", Solver::Xpbd},
 };
 
-Vec3 to_vec3(const Vector& v) {
-    return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
-}
-
-Quat to_quat(const Rotation& q) {
-    return {static_cast<float>(q[0]), static_cast<float>(q[1]), static_cast<float>(q[2]),
-            static_cast<float>(q[3])};
-}
-
 Vector to_vector(const Vec3& v) {
     return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
 }
@@ -44,27 +36,7 @@ public:
     }
 
     void add(const BenchScene& scene, const SceneBody& body) override {
-        BodyDef def{.kind = body.mobility == Mobility::Dynamic     ? BodyKind::Dynamic
-                            : body.mobility == Mobility::Kinematic ? BodyKind::Kinematic
-                                                                   : BodyKind::Static,
-                    .position = {body.position[0], body.position[1], body.position[2]},
-                    .rotation = to_quat(body.rotation),
-                    .angular_velocity = {body.angular_velocity[0], body.angular_velocity[1],
-                                         body.angular_velocity[2]}};
-        def.shapes.reserve(body.part_count);
-        for (std::uint32_t i = 0; i < body.part_count; ++i) {
-            const Part& part = scene.parts[body.first_part + i];
-            ShapeDef shape{.local_pose = {to_vec3(part.position), to_quat(part.rotation)},
-                           .density = body.density};
-            if (part.form == Form::Box) {
-                shape.geometry = Box{to_vec3(part.half_extents)};
-            } else {
-                shape.geometry = Sphere{static_cast<float>(part.radius)};
-            }
-            shape.material.friction = static_cast<float>(scene.friction);
-            def.shapes.push_back(shape);
-        }
-        bodies_.push_back(*world_.create_body(def));
+        bodies_.push_back(*world_.create_body(describe_body(scene, body)));
     }
 
     void step(double dt) override { (void)world_.step(dt); }
@@ -117,9 +89,7 @@ EngineDescription describe_engine() {
 }
 
 MadeEngine make_engine(const BenchScene& scene, const EngineRequest& request) {
-    WorldSettings settings;
-    settings.gravity = {0, static_cast<float>(-scene.gravity), 0};
-    settings.sleeping = scene.may_sleep;
+    WorldSettings settings = describe_world(scene);
     for (const Variant& variant : variants) {
         if (variant.name == request.variant) settings.step.solver = variant.solver;
     }
