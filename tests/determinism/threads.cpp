@@ -29,7 +29,7 @@ void meddle(World& world, int step) {
 std::vector<std::uint64_t> follow_heap(World world, const Threads& threads) {
     REQUIRE(world.set_threads(threads).ok());
     std::vector<std::uint64_t> hashes;
-    for (int step = 0; step < 60; ++step) {
+    for (int step = 0; step < 24; ++step) {
         meddle(world, step);
         REQUIRE(world.step(test::pile_dt).ok());
         hashes.push_back(world.state_hash());
