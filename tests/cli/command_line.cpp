@@ -182,6 +182,24 @@ TEST_CASE(
     CHECK(quiet.err.empty());
 }
 
+TEST_CASE("the summary tells threads, stages and sleepers, and no stages of a first step alone") {
+    const Outcome one = call("run tower --set height=2 --seconds 5");
+    REQUIRE(one.status == 0);
+    CHECK(one.out.find("\n  simulated    5 s in 300 steps\n") != std::string::npos);
+    // The ground and two cubes, which have come to rest.
+    CHECK(one.out.find("\n  bodies       3, of which 2 sleep at the end\n") != std::string::npos);
+    CHECK(one.out.find(", one thread\n") != std::string::npos);
+    std::size_t at = one.out.find("\n  stages       find-pairs ");
+    for (const char* stage : {"find-axes ", "build-manifolds ", "solve ", "finish ", " ms\n"}) {
+        CAPTURE(stage);
+        REQUIRE(at != std::string::npos);
+        at = one.out.find(stage, at);
+    }
+    CHECK(at < one.out.find("\n  energy "));
+    CHECK(call("run drop --steps 3 --threads 2").out.find(", 2 threads\n") != std::string::npos);
+    CHECK(call("run drop --steps 1").out.find("stages") == std::string::npos);
+}
+
 TEST_CASE("bad usage is refused with status 2 and one line") {
     check_refused("", "subcommand");
     check_refused("run", "SCENE");
