@@ -45,6 +45,7 @@ void change_way(World& world, Dice& dice) {
     if (whose == 0) threads.run = run_backwards;
     if (whose == 1) threads.run = run_on_threads;
     (void)world.set_threads(threads);
+    (void)world.set_trace(dice.one_in(3) ? 500 : 0);
     WorldSettings settings = world.settings();
     constexpr int lanes[] = {0, 1, 4, 8, 16};
     settings.step.lanes = lanes[dice.below(5)];

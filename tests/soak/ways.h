@@ -1,6 +1,6 @@
 #pragma once
-// What may never change a result: who does a step's work, how many contacts are looked at side by
-// side, and which broad phase finds the pairs.
+// What may never change a result: who does a step's work, whether that is traced, how many contacts
+// are looked at side by side, and which broad phase finds the pairs.
 
 #include <cstdint>
 
@@ -8,7 +8,7 @@
 
 namespace cairn::soak {
 
-// One to four threads, Cairn's own or a host's, other lanes, another broad phase.
+// One to four threads, Cairn's own or a host's, traced or not, other lanes, another broad phase.
 void change_way(World& world, Dice& dice);
 
 // How often a step was shared with a host's threads so far.
