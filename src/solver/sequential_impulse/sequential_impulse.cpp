@@ -17,6 +17,9 @@ constexpr float slop_share = 0.0005f;
 // No pass moves a point by more than this share of the smaller shape.
 constexpr float largest_correction_share = 0.1f;
 
+// A contact is at rest that closes or opens no faster than gravity makes it in so many substeps.
+constexpr float resting_substeps = 2;
+
 float slop(const ContactRows& row) { return slop_share * row.size; }
 
 // A push on positions; see push_body.
@@ -92,16 +95,31 @@ void SequentialImpulse::accelerate(const StepProblem& problem, float beta) {
 
 void SequentialImpulse::load_impulses(const StepProblem& problem, float h) {
     accumulated_.assign(rows_.size(), {});
+    bearings_.clear();
     loads_.assign(rows_.size(), 0);
     for (std::size_t k = 0; k < rows_.size(); ++k) {
-        const Contact& contact = problem.contacts[rows_[k].contact];
-        for (std::size_t i = 0; i < std::size_t(rows_[k].point_count); ++i) {
+        const ContactRows& row = rows_[k];
+        const Contact& contact = problem.contacts[row.contact];
+        for (std::size_t i = 0; i < std::size_t(row.point_count); ++i) {
             accumulated_[k].normal[i] = h * contact.points[i].normal_force;
             loads_[k] += accumulated_[k].normal[i];
         }
+        const PointRow& p = row.points[0];
+        const Vec3 v = relative_velocity(problem.motions[row.body_a], p.r_a,
+                                         problem.motions[row.body_b], p.r_b);
+        bearings_.push_back({.body_a = row.body_a,
+                             .body_b = row.body_b,
+                             .normal = row.normal,
+                             .gap = p.separation,
+                             .speed = dot(row.normal, v),
+                             .size = row.size,
+                             .load = loads_[k] / h});
     }
+    const float slow = resting_substeps * h * length(problem.gravity);
     remembered_ = loads_;
-    first_guess_.add_weights(problem, rows_, h, loads_);
+    if (first_guess_.add_weights(problem, slow, bearings_)) {
+        for (std::size_t k = 0; k < rows_.size(); ++k) loads_[k] = h * bearings_[k].load;
+    }
     for (std::size_t k = 0; k < rows_.size(); ++k) {
         const ContactRows& row = rows_[k];
         const Contact& contact = problem.contacts[row.contact];

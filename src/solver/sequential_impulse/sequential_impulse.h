@@ -29,8 +29,8 @@
 #include <vector>
 
 #include "solver/contact_rows.h"
+#include "solver/first_guess.h"
 #include "solver/impact.h"
-#include "solver/sequential_impulse/first_guess.h"
 
 namespace cairn {
 
@@ -81,6 +81,7 @@ private:
     std::vector<Impulses> accumulated_, changes_, directions_;
     std::vector<Response> responses_;
     std::vector<float> loads_, remembered_;  // total normal impulse of each row set
+    std::vector<FirstGuess::Bearing> bearings_;
     FirstGuess first_guess_;
     ImpactSolver impacts_;
 };

@@ -10,9 +10,6 @@ namespace cairn {
 
 namespace {
 
-// A contact's frequency, as a share of the substeps' own: the stiffest spring that one sweep a
-// substep holds without ringing.
-constexpr float frequency_share = 0.125f;
 // Damping over critical: contacts creep back, they do not bounce.
 constexpr float damping_ratio = 10;
 // Against what cannot be pushed there is but one body to move: twice as stiff, half as damped.
@@ -25,7 +22,7 @@ constexpr float slop_share = 0.0001f;
 constexpr float learning_share = 0.02f;
 // An overlap is pushed out no faster than this share of the speed sqrt(size g) that falling makes
 // of the smaller shape's size: similar scenes at two scales do alike ...
-constexpr float push_speed_share = 0.25f;
+constexpr float push_speed_share = 1.2f;
 // ... and where there is no gravity to measure by, than this share of the size a step.
 constexpr float push_share_a_step = 0.004f;
 
@@ -33,10 +30,9 @@ struct Softness {
     float bias_rate = 0, mass_scale = 0, impulse_scale = 0;
 };
 
-// Implicit Euler of a spring of frequency f and damping ratio z, as factors of a rigid row.
-Softness soften(float f, float z, float h) {
-    constexpr float two_pi = 6.28318530717958647692f;
-    const float omega = two_pi * f;
+// Implicit Euler of a spring of angular frequency omega and damping ratio z, as factors of a rigid
+// row.
+Softness soften(float omega, float z, float h) {
     const float a1 = 2 * z + h * omega;
     const float a2 = h * omega * a1;
     const float a3 = 1 / (1 + a2);
@@ -152,9 +148,10 @@ private:
 
     void fill_softness() {
         const bool ground = !(row_.mass_a > 0 && row_.mass_b > 0);
-        const float f = frequency_share / part_ * (ground ? ground_frequency_factor : 1);
+        const float omega =
+            SoftRows::angular_frequency_share / part_ * (ground ? ground_frequency_factor : 1);
         const Softness soft =
-            soften(f, damping_ratio * (ground ? ground_damping_factor : 1), part_);
+            soften(omega, damping_ratio * (ground ? ground_damping_factor : 1), part_);
         row_.bias_rate = soft.bias_rate;
         // The push, too, is answered by the softened mass.
         row_.mass_scale = soft.mass_scale;

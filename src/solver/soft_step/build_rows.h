@@ -13,6 +13,10 @@ namespace cairn {
 // A step's rows, colour by colour.
 class SoftRows {
 public:
+    // A contact's angular frequency over the rate of its sweeps: the stiffest spring that one sweep
+    // a part of a substep holds without ringing.
+    static constexpr float angular_frequency_share = 0.78539816f;  // 2 pi / 8
+
     // The rows of one kind that share a colour.
     struct Batch {
         RowKind kind = RowKind::OnePoint;

@@ -2,15 +2,25 @@
 
 #include "solver/soft_step/soft_step.h"
 
+#include <array>
+
 #include "integrate/integrate.h"
 
 namespace cairn {
 
 namespace {
 
-// Sweeps of a substep, each followed by its share of the way. A contact's stiffness grows with the
-// square of their number; three hold a pyramid of forty layers and a house of cards.
-constexpr int parts_a_substep = 3;
+// How far the smaller of two shapes in touch may sink by its own weight, as a share of its smallest
+// half extent. A contact's stiffness grows with the square of the parts of a substep: what is small
+// for the step calls for more of them, a stack of unit cubes for one.
+constexpr float sinking_share = 6e-4f;
+constexpr int most_parts = 10;
+// A contact that has just begun has neither friction nor an even load to start from.
+constexpr int parts_for_new = 3;
+// One in so many contacts may call for more parts than it gets.
+constexpr std::size_t most_unserved = 16;
+// A contact is at rest that closes or opens no faster than gravity makes it in so many steps.
+constexpr float resting_steps = 2;
 // Bodies are moved in groups of at most so many.
 constexpr std::size_t widest = 16;
 // Bodies are shared out in blocks of so many, about a microsecond's work.
@@ -25,7 +35,9 @@ constexpr float farthest_turn = 0.1f;
 void SoftStep::advance(const StepProblem& problem) {
     const SoftKernels& kernels = find_soft_kernels(problem.lanes);
     const auto h = float(problem.dt / problem.substeps);
-    const float part = h / float(parts_a_substep);
+    guess_loads(problem);
+    choose_parts(problem, h);
+    const float part = h / float(parts_);
     load_bodies(problem);
     anchor(problem, h);
     choose_bouncing(problem);
@@ -49,7 +61,7 @@ void SoftStep::advance(const StepProblem& problem) {
         if (has_turned_far()) anchor_anew(problem, h);
         resolve_impacts(problem, h);
         add_loop(problem.moving.size(), bodies_a_block, begin_bodies);
-        for (int k = 0; k < parts_a_substep; ++k) {
+        for (int k = 0; k < parts_; ++k) {
             solve_exactly(problem, part, true);
             for (int i = 0; i < problem.iterations; ++i)
                 add_pass(kernels.solve, {1.0f / part, false});
@@ -59,7 +71,7 @@ void SoftStep::advance(const StepProblem& problem) {
                 solve_exactly(problem, part, false);
             }
             for (int i = 0; i < problem.iterations; ++i) {
-                const bool last = k + 1 == parts_a_substep && i + 1 == problem.iterations;
+                const bool last = k + 1 == parts_ && i + 1 == problem.iterations;
                 add_pass(kernels.relax, {1.0f / part, last});
             }
         }
@@ -69,6 +81,62 @@ void SoftStep::advance(const StepProblem& problem) {
     store_poses(problem);
     rows_.store(problem, h, true);
     store_bodies(problem);
+}
+
+void SoftStep::guess_loads(const StepProblem& problem) {
+    bearings_.clear();
+    for (const std::uint32_t k : problem.active) {
+        const Contact& contact = problem.contacts[k];
+        const BodyMotion& a = problem.motions[contact.body_a];
+        const BodyMotion& b = problem.motions[contact.body_b];
+        const ContactPoint& p = contact.points[0];
+        float gap = p.separation, load = 0;
+        for (int i = 0; i < contact.point_count; ++i) {
+            gap = min(gap, contact.points[std::size_t(i)].separation);
+            load += contact.points[std::size_t(i)].normal_force;
+        }
+        const Vec3 v =
+            relative_velocity(a, find_arm(p.arm_a, a.rotation), b, find_arm(p.arm_b, b.rotation));
+        bearings_.push_back({.body_a = contact.body_a,
+                             .body_b = contact.body_b,
+                             .normal = contact.normal,
+                             .gap = gap,
+                             .speed = dot(contact.normal, v),
+                             .size = contact.size,
+                             .load = load});
+    }
+    const float slow = resting_steps * float(problem.dt) * length(problem.gravity);
+    std::vector<float>& before = loads_before_;
+    before.clear();
+    for (const FirstGuess::Bearing& bearing : bearings_) before.push_back(bearing.load);
+    if (!first_guess_.add_weights(problem, slow, bearings_)) return;
+    for (std::size_t k = 0; k < bearings_.size(); ++k) {
+        const float added = bearings_[k].load - before[k];
+        if (!(added > 0)) continue;
+        Contact& contact = problem.contacts[problem.active[k]];
+        contact.remembered_load += added;
+        for (int i = 0; i < contact.point_count; ++i)
+            contact.points[std::size_t(i)].normal_force += added / float(contact.point_count);
+    }
+}
+
+// As many parts as all but a few of the contacts ask for.
+void SoftStep::choose_parts(const StepProblem& problem, float h) {
+    // What a spring of one part's frequency sinks by, over the sinking that is allowed: weight over
+    // stiffness, g / omega^2.
+    const float sinking = length(problem.gravity) * square(h / SoftRows::angular_frequency_share);
+    std::array<std::size_t, most_parts + 1> askers = {};
+    for (const std::uint32_t k : problem.active) {
+        const Contact& contact = problem.contacts[k];
+        int parts = contact.touching ? 1 : parts_for_new;
+        const float allowed = sinking_share * contact.size;
+        while (parts < most_parts && sinking > float(parts * parts) * allowed) ++parts;
+        ++askers[std::size_t(parts)];
+    }
+    parts_ = most_parts;
+    std::size_t unserved = askers[most_parts];
+    while (parts_ > 1 && unserved * most_unserved <= problem.active.size())
+        unserved += askers[std::size_t(--parts_)];
 }
 
 void SoftStep::solve_exactly(const StepProblem& problem, float part, bool pushes) {
@@ -87,7 +155,7 @@ void SoftStep::anchor(const StepProblem& problem, float h) {
         bodies_[i].turn = {};
     }
     const int width = find_soft_kernels(problem.lanes).width;
-    rows_.build(problem, responses_, h, h / float(parts_a_substep), width);
+    rows_.build(problem, responses_, h, h / float(parts_), width);
     bodies_.resize(problem.motions.size() + rows_.spare_bodies());
     exact_.prepare(problem, responses_, rows_);
 }

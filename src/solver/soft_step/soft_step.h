@@ -5,7 +5,7 @@
 //   impacts      bounces, before any force acts (solver/impact.h)
 //   velocities   v += h a, w += h I^-1 torque, what a tumbling body's spin makes of w, and the
 //                impulses of the last substep once more
-// and then, in several parts, each with its share of the way:
+// and then, in one or several parts, each with its share of the way (choose_parts):
 //   exact loads  for columns, whose loads pass through many contacts (exact_loads.h): before each
 //                of the two sweeps, as soft or as rigid as that
 //   solve        one sweep over the normals as stiff, heavily damped springs, which also push
@@ -15,6 +15,9 @@
 //                at once and tumble as they go
 //   relax        one sweep with rigid normals and without a push, which takes out the speed that
 //                the springs gave; then friction, once a manifold, knowing the final load
+//
+// New contacts begin with the weight that they will have to bear (solver/first_guess.h), and
+// remember it: what is put up does not sink before it is held.
 //
 // All contacts of a colour are solved side by side, in lanes; the rows are built once a step, and
 // once more at a substep's beginning when a body has turned far from how they know it. Since
@@ -30,6 +33,7 @@
 #include <vector>
 
 #include "solver/contact_rows.h"
+#include "solver/first_guess.h"
 #include "solver/impact.h"
 #include "solver/soft_step/build_rows.h"
 #include "solver/soft_step/exact_loads.h"
@@ -44,6 +48,8 @@ public:
     void advance(const StepProblem& problem);
 
 private:
+    void guess_loads(const StepProblem& problem);
+    void choose_parts(const StepProblem& problem, float h);
     void load_bodies(const StepProblem& problem);
     void choose_bouncing(const StepProblem& problem);
     void take_warm_start(const StepProblem& problem, const SoftKernels& kernels);
@@ -86,6 +92,10 @@ private:
         void operator()(int begin, int end, int worker) const;
     };
 
+    int parts_ = 1;  // of a substep
+    std::vector<FirstGuess::Bearing> bearings_;
+    std::vector<float> loads_before_;
+    FirstGuess first_guess_;
     std::vector<SoftBody> bodies_;  // and some more: see SoftRows::spare_bodies
     std::vector<Course> courses_;
     std::vector<std::uint32_t> touched_;  // padded to a multiple of every width
