@@ -2,56 +2,58 @@
 
 #include "world/dense_bodies.h"
 
-#include <algorithm>
-
+#include "world/step_groups.h"
 #include "world/world_state.h"
 
 namespace cairn {
 
-bool DenseBodies::pays(const WorldState& world) {
-    // Two bodies a contact at most, of which one moves.
-    const std::size_t most = world.scratch.moving.size() + world.scratch.active.size();
-    return 4 * most < world.bodies.size();
-}
-
-void DenseBodies::list(std::uint32_t body) {
-    if (is_listed(body)) return;
+void DenseBodies::add(const WorldState& world, std::uint32_t body) {
     places_[body] = std::uint32_t(slots_.size());
     slots_.push_back(body);
+    motions_.push_back(world.motions[body]);
+    inertias_.push_back(world.inertias[body]);
+    drives_.push_back(world.drives[body]);
+    heights_.push_back(world.scratch.heights[body]);
 }
 
-void DenseBodies::gather(WorldState& world) {
+std::uint32_t DenseBodies::place_guest(const WorldState& world, std::uint32_t body) {
+    if (is_listed(body)) return places_[body];
+    if (world.drives[body].kind == BodyKind::Kinematic)
+        moving_.push_back(std::uint32_t(slots_.size()));
+    add(world, body);
+    return places_[body];
+}
+
+void DenseBodies::gather(WorldState& world, const StepGroup& group, StepProblem& problem) {
     slots_.clear();
+    motions_.clear();
+    inertias_.clear();
+    drives_.clear();
+    heights_.clear();
+    moving_.clear();
     places_.resize(world.bodies.size());
-    for (const std::uint32_t body : world.scratch.moving) list(body);
-    for (const std::uint32_t slot : world.scratch.active) {
-        list(world.contacts[slot].body_a);
-        list(world.contacts[slot].body_b);
+    for (const std::uint32_t body : group.moving) {
+        moving_.push_back(std::uint32_t(slots_.size()));
+        add(world, body);
     }
-    std::sort(slots_.begin(), slots_.end());
-    motions.clear();
-    inertias.clear();
-    drives.clear();
-    heights.clear();
-    moving.clear();
-    for (const std::uint32_t body : slots_) {
-        places_[body] = std::uint32_t(motions.size());
-        motions.push_back(world.motions[body]);
-        inertias.push_back(world.inertias[body]);
-        drives.push_back(world.drives[body]);
-        heights.push_back(world.scratch.heights[body]);
-    }
-    for (const std::uint32_t body : world.scratch.moving) moving.push_back(places_[body]);
-    for (const std::uint32_t slot : world.scratch.active) {
+    for (const std::uint32_t slot : group.active) {
         Contact& contact = world.contacts[slot];
-        contact.body_a = places_[contact.body_a];
-        contact.body_b = places_[contact.body_b];
+        contact.body_a = place_guest(world, contact.body_a);
+        contact.body_b = place_guest(world, contact.body_b);
     }
+    problem.motions = motions_;
+    problem.inertias = inertias_;
+    problem.drives = drives_;
+    problem.heights = heights_;
+    problem.moving = moving_;
+    problem.active = group.active;
 }
 
-void DenseBodies::scatter(WorldState& world) const {
-    for (const std::uint32_t place : moving) world.motions[slots_[place]] = motions[place];
-    for (const std::uint32_t slot : world.scratch.active) {
+void DenseBodies::scatter(WorldState& world, const StepGroup& group) const {
+    // The group's own bodies came first.
+    for (std::size_t i = 0; i < group.moving.size(); ++i)
+        world.motions[group.moving[i]] = motions_[i];
+    for (const std::uint32_t slot : group.active) {
         Contact& contact = world.contacts[slot];
         contact.body_a = slots_[contact.body_a];
         contact.body_b = slots_[contact.body_b];

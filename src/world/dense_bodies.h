@@ -1,43 +1,43 @@
 #pragma once
-// The bodies that a solver has to do with, close together: where most of a world rests, nothing
-// that a solver does once a body may be done for all of them.
+// The bodies of one group of a step, close together: a problem of its own that a solver can work on
+// while others work on theirs.
 //
-// Reads the moving bodies and the contacts with points. While a problem is dense, those contacts
-// name bodies by their place in it; the places keep the order of the slots, so that a solver does
-// the same to the bit either way.
+// Bodies are copied, the group's own first and in the order of their slots. What cannot be pushed
+// is copied into every group that touches it; kinematic bodies go their way in each, as guests.
+// While a problem is dense, its contacts name bodies by their place in it.
 
 #include <cstdint>
 
 #include "base/large_array.h"
 #include "body/body.h"
+#include "constraint/step_problem.h"
 
 namespace cairn {
 
+struct StepGroup;
 struct WorldState;
 
 class DenseBodies {
 public:
-    // Whether it is worth it: most bodies are neither moving nor touched.
-    static bool pays(const WorldState& world);
-
-    void gather(WorldState& world);
+    // Takes the group out of the world and makes `problem` be about it.
+    void gather(WorldState& world, const StepGroup& group, StepProblem& problem);
     // Hands back what moved, and gives the contacts their bodies' slots.
-    void scatter(WorldState& world) const;
-
-    LargeArray<BodyMotion> motions;
-    LargeArray<BodyInertia> inertias;
-    LargeArray<BodyDrive> drives;
-    LargeArray<float> heights;
-    LargeArray<std::uint32_t> moving;  // places
+    void scatter(WorldState& world, const StepGroup& group) const;
 
 private:
     bool is_listed(std::uint32_t body) const {
         return places_[body] < slots_.size() && slots_[places_[body]] == body;
     }
-    void list(std::uint32_t body);
+    void add(const WorldState& world, std::uint32_t body);
+    std::uint32_t place_guest(const WorldState& world, std::uint32_t body);
 
     LargeArray<std::uint32_t> slots_;   // by place
     LargeArray<std::uint32_t> places_;  // by slot; means something where slots_ agrees
+    LargeArray<BodyMotion> motions_;
+    LargeArray<BodyInertia> inertias_;
+    LargeArray<BodyDrive> drives_;
+    LargeArray<float> heights_;
+    LargeArray<std::uint32_t> moving_;  // places
 };
 
 }  // namespace cairn

@@ -177,6 +177,39 @@ void drive_body(WorldState& world, std::uint32_t slot, float h) {
     }
 }
 
+// One group by one solver; `team` may share its loops.
+void advance_group(WorldState& world, const StepGroup& group, WorldState::Workshop& workshop,
+                   StepProblem problem, Team* team) {
+    problem.team = team;
+    workshop.bodies.gather(world, group, problem);
+    std::visit([&](auto& method) { method.advance(problem); }, workshop.solver);
+    workshop.bodies.scatter(world, group);
+}
+
+// A group of so many contacts is worth sharing; smaller ones are taken by one thread each.
+constexpr std::size_t shared_group = 1024;
+
+void advance_groups(WorldState& world, Team& team, const StepProblem& problem) {
+    const StepGroups& groups = world.scratch.groups;
+    auto& workshops = world.scratch.workshops;
+    workshops.resize(std::size_t(team.worker_count()));
+    for (WorldState::Workshop& workshop : workshops) {
+        if (workshop.solver.index() != world.solver.index()) workshop.solver = world.solver;
+    }
+    const auto is_shared = [&](std::size_t i) { return groups[i].active.size() >= shared_group; };
+    for (std::size_t i = 0; i < groups.count(); ++i) {
+        if (is_shared(i)) advance_group(world, groups[i], workshops[0], problem, &team);
+    }
+    team.for_range(int(groups.count()), 1, [&](int begin, int end, int worker) {
+        for (auto i = std::size_t(begin); i < std::size_t(end); ++i) {
+            if (!is_shared(i))
+                advance_group(world, groups[i], workshops[std::size_t(worker)], problem, nullptr);
+        }
+    });
+    // They were read by all until now.
+    advance_group(world, groups.kinematic_group(), workshops[0], problem, nullptr);
+}
+
 // Gives a contact to each pair that meets and has none.
 void create_contacts(WorldState& world) {
     const std::span<PairRecord> pairs = world.contacts.pairs();
@@ -365,18 +398,8 @@ void advance(WorldState& world, Team& team, double dt) {
         .lanes = step.lanes,
         .team = &team,
     };
-    DenseBodies& dense = world.scratch.dense;
-    const bool is_dense = DenseBodies::pays(world);
-    if (is_dense) {
-        dense.gather(world);
-        problem.motions = dense.motions;
-        problem.inertias = dense.inertias;
-        problem.drives = dense.drives;
-        problem.heights = dense.heights;
-        problem.moving = dense.moving;
-    }
-    std::visit([&](auto& method) { method.advance(problem); }, world.solver);
-    if (is_dense) dense.scatter(world);
+    world.scratch.groups.form(world);
+    advance_groups(world, team, problem);
 }
 
 // Reads displacements; writes positions. A body whose numbers went wrong goes back to the step's

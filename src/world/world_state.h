@@ -19,6 +19,7 @@
 #include "solver/solver.h"
 #include "world/dense_bodies.h"
 #include "world/rest_state.h"
+#include "world/step_groups.h"
 
 namespace cairn {
 
@@ -108,6 +109,12 @@ struct WorldState {
     std::vector<ContactEvent> events;
     std::vector<NonFinite> non_finite;
 
+    // Where a worker advances groups of the step, of no meaning between steps.
+    struct Workshop {
+        DenseBodies bodies;
+        SolverState solver;
+    };
+
     // Room that steps use again, of no meaning between them.
     struct Scratch {
         LargeArray<Proxy> proxies;
@@ -125,7 +132,8 @@ struct WorldState {
         LargeArray<BodyMotion> before;
         LargeArray<std::optional<Quantity>> wrong;  // as `moving`: which of its numbers
         LargeArray<float> heights;
-        DenseBodies dense;
+        StepGroups groups;
+        std::vector<Workshop> workshops;  // by worker
     } scratch;
 };
 

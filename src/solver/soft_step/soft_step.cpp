@@ -128,7 +128,7 @@ void SoftStep::choose_parts(const StepProblem& problem, float h) {
     std::array<std::size_t, most_parts + 1> askers = {};
     for (const std::uint32_t k : problem.active) {
         const Contact& contact = problem.contacts[k];
-        int parts = contact.touching ? 1 : parts_for_new;
+        int parts = has_just_begun(contact) ? parts_for_new : 1;
         const float allowed = sinking_share * contact.size;
         while (parts < most_parts && sinking > float(parts * parts) * allowed) ++parts;
         ++askers[std::size_t(parts)];

@@ -1,0 +1,146 @@
+// Islands by union and find, and groups of them; see step_groups.h.
+
+#include "world/step_groups.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "world/world_state.h"
+
+namespace cairn {
+
+namespace {
+
+// A group takes islands until it has so many contacts or bodies: rows and bodies of a few hundred
+// kilobytes.
+constexpr std::uint32_t full = 512;
+
+bool is_pushed(const WorldState& world, std::uint32_t body) {
+    return world.inertias[body].inverse_mass > 0;
+}
+
+// Islands of one kind may share a group.
+std::uint32_t find_kind(std::uint32_t contacts, float smallest, bool is_new) {
+    if (contacts == 0) return 0;
+    const std::uint32_t octave = std::bit_cast<std::uint32_t>(smallest) >> 23u;
+    return 2 * octave + (is_new ? 3 : 2);
+}
+
+}  // namespace
+
+StepGroup StepGroups::operator[](std::size_t group) const {
+    const Range& from = groups_[group];
+    const Range& to = groups_[group + 1];
+    return {std::span(moving_).subspan(from.moving, to.moving - from.moving),
+            std::span(active_).subspan(from.active, to.active - from.active)};
+}
+
+void StepGroups::form(const WorldState& world) {
+    join_bodies(world);
+    measure_islands(world);
+    give_groups();
+    fill_lists(world);
+}
+
+std::uint32_t StepGroups::find_root(std::uint32_t body) {
+    while (parents_[body] != body) {
+        parents_[body] = parents_[parents_[body]];
+        body = parents_[body];
+    }
+    return body;
+}
+
+// Of two roots the lower one stays, so that an island is numbered when its first body is met.
+void StepGroups::join_bodies(const WorldState& world) {
+    parents_.resize(world.bodies.size());
+    for (const std::uint32_t body : world.scratch.moving) parents_[body] = body;
+    for (const std::uint32_t slot : world.scratch.active) {
+        const Contact& contact = world.contacts[slot];
+        if (!is_pushed(world, contact.body_a) || !is_pushed(world, contact.body_b)) continue;
+        const std::uint32_t a = find_root(contact.body_a);
+        const std::uint32_t b = find_root(contact.body_b);
+        parents_[std::max(a, b)] = std::min(a, b);
+    }
+}
+
+std::uint32_t StepGroups::island_of_contact(const WorldState& world, std::uint32_t slot) const {
+    const Contact& contact = world.contacts[slot];
+    if (is_pushed(world, contact.body_a)) return island_[contact.body_a];
+    return is_pushed(world, contact.body_b) ? island_[contact.body_b] : none;
+}
+
+void StepGroups::measure_islands(const WorldState& world) {
+    islands_.clear();
+    island_.resize(world.bodies.size());
+    for (const std::uint32_t body : world.scratch.moving) {
+        if (!is_pushed(world, body)) {
+            island_[body] = none;
+            continue;
+        }
+        const std::uint32_t root = find_root(body);
+        if (root == body) {
+            island_[body] = std::uint32_t(islands_.size());
+            islands_.emplace_back();
+        }
+        island_[body] = island_[root];
+        ++islands_[island_[body]].bodies;
+    }
+    for (const std::uint32_t slot : world.scratch.active) {
+        const std::uint32_t number = island_of_contact(world, slot);
+        if (number == none) continue;
+        Island& island = islands_[number];
+        const Contact& contact = world.contacts[slot];
+        island.smallest = island.contacts == 0 ? contact.size : min(island.smallest, contact.size);
+        island.is_new = island.is_new || has_just_begun(contact);
+        ++island.contacts;
+    }
+}
+
+void StepGroups::give_groups() {
+    open_.clear();
+    group_count_ = 0;
+    for (Island& island : islands_) {
+        if (std::max(island.bodies, island.contacts) >= full) {
+            island.group = group_count_++;
+            continue;
+        }
+        const std::uint32_t kind = find_kind(island.contacts, island.smallest, island.is_new);
+        auto open = std::find_if(open_.begin(), open_.end(),
+                                 [&](const OpenGroup& group) { return group.kind == kind; });
+        if (open == open_.end()) {
+            open_.push_back({.kind = kind, .group = group_count_++});
+            open = open_.end() - 1;
+        }
+        if (std::max(open->bodies + island.bodies, open->contacts + island.contacts) > full)
+            *open = {.kind = kind, .group = group_count_++};
+        open->bodies += island.bodies;
+        open->contacts += island.contacts;
+        island.group = open->group;
+    }
+}
+
+// A counting sort of the two lists by group; kinematic bodies come last.
+void StepGroups::fill_lists(const WorldState& world) {
+    groups_.assign(group_count_ + 2, {});
+    const auto group_of = [&](std::uint32_t body) {
+        return island_[body] == none ? group_count_ : islands_[island_[body]].group;
+    };
+    for (const std::uint32_t body : world.scratch.moving) ++groups_[group_of(body) + 1].moving;
+    for (const Island& island : islands_) groups_[island.group + 1].active += island.contacts;
+    for (std::size_t i = 1; i < groups_.size(); ++i) {
+        groups_[i].moving += groups_[i - 1].moving;
+        groups_[i].active += groups_[i - 1].active;
+    }
+    moving_.resize(groups_.back().moving);
+    active_.resize(groups_.back().active);
+    next_ = groups_;
+    for (const std::uint32_t body : world.scratch.moving)
+        moving_[next_[group_of(body)].moving++] = body;
+    for (const std::uint32_t slot : world.scratch.active) {
+        const std::uint32_t island = island_of_contact(world, slot);
+        // What two bodies that cannot be pushed do to each other is nothing.
+        if (island != none) active_[next_[islands_[island].group].active++] = slot;
+    }
+}
+
+}  // namespace cairn
