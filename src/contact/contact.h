@@ -22,20 +22,25 @@ inline Vec3 find_arm(const Arm& arm, Quat rotation) {
     return rotate(rotation, arm.core) + arm.offset;
 }
 
-struct ContactPoint {
+// Four numbers a group: a solver reads and writes many of them side by side.
+struct alignas(16) ContactPoint {
     Arm arm_a, arm_b;      // to the same place in the world, halfway between the surfaces
     float separation = 0;  // m at the step's start; a method may leave the one at its end
     std::uint32_t feature = 0;
     // What the solver found last, as forces (N), so that a change of the step's length changes
     // nothing: where the next step begins.
     float normal_force = 0;
-    Vec3 friction_force;  // world, on B
-    // What passed through the point over the whole last step (N s, on B), shocks included: for
-    // reports.
+    // What passed through the point over the whole last step (N s, on B), shocks included, and
+    // `friction_impulse`: for reports.
     float normal_impulse = 0;
+    Vec3 friction_force;  // world, on B
+    std::uint32_t unused_0 = 0;
     Vec3 friction_impulse;
+    std::uint32_t unused_1 = 0;
 };
+static_assert(sizeof(ContactPoint) == 96);
 
+// Likewise.
 struct Contact {
     std::uint64_t key = 0;
     std::uint32_t shape_a = 0, shape_b = 0;
@@ -47,6 +52,12 @@ struct Contact {
     // Where the surfaces slide along each other within a step, the contact stays with this one's
     // feature: the round shape's lowest point, the smaller shape's corner.
     bool stays_with_a = false;
+    // How deep the shapes overlapped when they met, m, as far as it is still borne.
+    float first_overlap = 0;
+
+    Vec3 normal = {0, 1, 0};  // unit, from A to B, world
+    // What the contact has long borne, N, normal: what rests on it need not press it first.
+    float remembered_load = 0;
 
     // The two surfaces together.
     float friction = 0;
@@ -57,15 +68,10 @@ struct Contact {
     // The smaller of the shapes' smallest half extents: what lengths are measured by.
     float size = 0;
 
-    Vec3 normal = {0, 1, 0};  // unit, from A to B, world
-    // What the contact has long borne, N, normal: what rests on it need not press it first.
-    float remembered_load = 0;
     Vec3 rolling_torque;        // N m on B, where the next step begins
     float spinning_torque = 0;  // N m on B about the normal
     Vec3 rolling_impulse;       // N m s on B over the last step
     float spinning_impulse = 0;
-    // How deep the shapes overlapped when they met, m, as far as it is still borne.
-    float first_overlap = 0;
 
     std::array<ContactPoint, 4> points;
 };

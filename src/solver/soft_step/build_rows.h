@@ -42,13 +42,14 @@ public:
 
     // Of the contacts as read.
     void build(const StepProblem& problem, std::span<const Response> responses, float h, float part,
-               int width);
+               const SoftKernels& kernels);
     // What the rows hold into the contacts, their separations too: rows built from them go on as
     // these would have. Once a step, at its end, contacts learn what they bear.
-    void store(const StepProblem& problem, float h, bool ends_step) const;
+    void store(const StepProblem& problem, float h, bool ends_step, const SoftKernels& kernels);
 
     std::span<const Batch> batches() const { return batches_; }
-    RowRange range(const Batch& batch);
+    // Some rows of a batch, counted from its first.
+    RowRange range(const Batch& batch, int begin, int end);
     // Rows of a batch are shared out in blocks of so many, about a microsecond's work.
     static int rows_a_block(int width) { return width < 64 ? 64 / width : 1; }
     // Places after the bodies: one that stands still, and one that may be written for each block
@@ -62,8 +63,10 @@ private:
     bool keeps_bodies_apart(std::size_t body_count) const;
     void give_places(const StepProblem& problem, int width);
     Place take_lane(RowKind kind, std::size_t colour_begin, std::uint32_t nobody);
-    void fill(const StepProblem& problem, std::span<const Response> responses, float h, float part,
-              std::span<const std::uint32_t> places_in_active);
+    RowSource make_source(const StepProblem& problem, float h, float part) const;
+    // Rows from their contacts, or what they came to into these.
+    void exchange(const StepProblem& problem,
+                  const SoftKernels::Exchange (&kernels)[row_kind_count], const RowSource& source);
 
     std::vector<Link> links_;
     std::vector<Colouring::Edge> edges_;
@@ -74,6 +77,7 @@ private:
     std::vector<Batch> batches_;
     std::size_t spare_bodies_ = 2;
     std::vector<Place> places_;
+    std::vector<SoftHeft> hefts_;  // by body
 };
 
 }  // namespace cairn

@@ -20,8 +20,11 @@
 #include <cstddef>
 
 #include "math/lanes.h"
+#include "solver/soft_step/row_lanes.h"
+#include "solver/soft_step/soft_fill.h"
 #include "solver/soft_step/soft_kernels.h"
 #include "solver/soft_step/soft_poses.h"
+#include "solver/soft_step/soft_store.h"
 
 namespace cairn {
 
@@ -33,31 +36,6 @@ constexpr int friction_rounds = 4;
 // Surfaces without friction count as having this little, so that what holds only a twist has a
 // lever.
 constexpr float least_friction = 1e-6f;
-
-// One row in lanes: numbers by their place in the record.
-template <int W>
-class RowLanes {
-public:
-    using F = Lanes<W>;
-    using V = Vec3Lanes<W>;
-    explicit RowLanes(float* row) : row_(row) {}
-
-    F number(std::size_t bytes, int i = 0) const { return F::load(at(bytes, i)); }
-    void set(std::size_t bytes, F x, int i = 0) { x.store(at(bytes, i)); }
-    V vector(std::size_t bytes) const {
-        return {number(bytes), number(bytes, 1), number(bytes, 2)};
-    }
-    SymmetricLanes<W> tensor(std::size_t bytes) const {
-        return {number(bytes),    number(bytes, 1), number(bytes, 2),
-                number(bytes, 3), number(bytes, 4), number(bytes, 5)};
-    }
-
-private:
-    float* at(std::size_t bytes, int i) const { return row_ + (bytes / 4 + std::size_t(i)) * W; }
-    float* row_;
-};
-
-#define CAIRN_FIELD(name) offsetof(Row, name)
 
 template <int W>
 struct LaneVelocities {
@@ -460,6 +438,10 @@ constexpr SoftKernels make_soft_kernels() {
              measure_rows<4, true, W>},
             {relax_rows<1, false, W>, relax_rows<4, false, W>, relax_rows<1, true, W>,
              relax_rows<4, true, W>},
+            {fill_rows<1, false, W>, fill_rows<4, false, W>, fill_rows<1, true, W>,
+             fill_rows<4, true, W>},
+            {store_rows<1, false, W>, store_rows<4, false, W>, store_rows<1, true, W>,
+             store_rows<4, true, W>},
             move_bodies<W>};
 }
 

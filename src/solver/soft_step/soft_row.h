@@ -12,6 +12,7 @@
 // impulse l at point i changes them by K (1, y_i, -x_i) l with one symmetric 3x3 K, and the bodies
 // are touched once a manifold however many points it has.
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -31,6 +32,18 @@ struct alignas(64) SoftBody {
     Quat turn;
 };
 static_assert(sizeof(SoftBody) == 64);
+
+// What a row is built from of each of its bodies; four floats a group, likewise.
+struct alignas(64) SoftHeft {
+    float xx = 0, yy = 0, zz = 0, xy = 0;  // inverse inertia, world
+    float xz = 0, yz = 0;
+    float inverse_mass = 0;
+    float unused_0 = 0;
+    Vec3 inverse_masses;  // by world axis: zero along a locked one
+    float unused_1 = 0;
+    Quat rotation;
+};
+static_assert(sizeof(SoftHeft) == 64);
 
 // Of P points at most.
 template <int P>
@@ -93,7 +106,6 @@ public:
     void clear(int width, std::size_t numbers_a_lane) {
         width_ = std::size_t(width);
         stride_ = numbers_a_lane * width_;
-        numbers_.clear();
         read_a.clear();
         read_b.clear();
         write_a.clear();
@@ -113,10 +125,11 @@ public:
     float operator[](std::size_t place) const { return numbers_[place]; }
 
     // Adds a row of idle lanes that read `still` and write `nowhere`; no two rows that are worked
-    // on at once may write the same.
+    // on at once may write the same. Its numbers are whatever was there: all are yet to be filled.
     std::size_t add_row(std::uint32_t still, std::uint32_t nowhere) {
-        numbers_.resize(numbers_.size() + stride_, 0.0f);
         const std::size_t lanes = contacts.size() + width_;
+        const std::size_t needed = lanes / width_ * stride_;
+        if (numbers_.size() < needed) numbers_.resize(std::max(needed, 2 * numbers_.size()));
         read_a.resize(lanes, still);
         read_b.resize(lanes, still);
         write_a.resize(lanes, nowhere);
@@ -135,19 +148,5 @@ private:
     std::size_t width_ = 1;
     std::size_t stride_ = 0;
 };
-
-// A record's numbers into a lane and back.
-template <class Row>
-void put_lane(RowArray& rows, std::size_t r, std::size_t lane, const Row& record) {
-    const auto* numbers = reinterpret_cast<const float*>(&record);
-    for (std::size_t k = 0; k < rows.numbers(); ++k) rows[rows.place(r, lane, k)] = numbers[k];
-}
-template <class Row>
-Row get_lane(const RowArray& rows, std::size_t r, std::size_t lane) {
-    Row record;
-    auto* numbers = reinterpret_cast<float*>(&record);
-    for (std::size_t k = 0; k < rows.numbers(); ++k) numbers[k] = rows[rows.place(r, lane, k)];
-    return record;
-}
 
 }  // namespace cairn

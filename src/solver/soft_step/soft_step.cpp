@@ -14,7 +14,7 @@ namespace {
 // half extent. A contact's stiffness grows with the square of the parts of a substep: what is small
 // for the step calls for more of them, a stack of unit cubes for one.
 constexpr float sinking_share = 6e-4f;
-constexpr int most_parts = 10;
+constexpr int most_parts = 12;
 // A contact that has just begun has neither friction nor an even load to start from.
 constexpr int parts_for_new = 3;
 // One in so many contacts may call for more parts than it gets.
@@ -79,7 +79,7 @@ void SoftStep::advance(const StepProblem& problem) {
         run(problem);
     }
     store_poses(problem);
-    rows_.store(problem, h, true);
+    rows_.store(problem, h, true, kernels);
     store_bodies(problem);
 }
 
@@ -154,15 +154,14 @@ void SoftStep::anchor(const StepProblem& problem, float h) {
         bodies_[i].displacement = {};
         bodies_[i].turn = {};
     }
-    const int width = find_soft_kernels(problem.lanes).width;
-    rows_.build(problem, responses_, h, h / float(parts_), width);
+    rows_.build(problem, responses_, h, h / float(parts_), find_soft_kernels(problem.lanes));
     bodies_.resize(problem.motions.size() + rows_.spare_bodies());
     exact_.prepare(problem, responses_, rows_);
 }
 
 void SoftStep::anchor_anew(const StepProblem& problem, float h) {
     store_poses(problem);
-    rows_.store(problem, h, false);
+    rows_.store(problem, h, false, find_soft_kernels(problem.lanes));
     anchor(problem, h);
 }
 
@@ -284,19 +283,15 @@ void SoftStep::store_poses(const StepProblem& problem) {
 }
 
 void SoftStep::RowJob::operator()(int begin, int end, int) const {
-    const auto first = std::size_t(begin) * width;
-    kernel({range.rows + first * numbers, range.read_a + first, range.read_b + first,
-            range.write_a + first, range.write_b + first, std::size_t(end - begin)},
-           bodies, pass);
+    kernel(rows->range(batch, begin, end), bodies, pass);
 }
 
 void SoftStep::add_pass(const SoftKernels::Kernel (&kernels)[row_kind_count],
                         const SoftPass& pass) {
     for (const SoftRows::Batch& batch : rows_.batches()) {
-        const RowArray& rows = rows_.array(batch.kind);
-        jobs_.push_back({kernels[std::size_t(batch.kind)], rows_.range(batch), rows.width(),
-                         rows.numbers(), bodies_.data(), pass});
-        add_loop(batch.end - batch.begin, SoftRows::rows_a_block(int(rows.width())), jobs_.back());
+        jobs_.push_back({kernels[std::size_t(batch.kind)], &rows_, batch, bodies_.data(), pass});
+        add_loop(batch.end - batch.begin,
+                 SoftRows::rows_a_block(int(rows_.array(batch.kind).width())), jobs_.back());
     }
 }
 

@@ -85,8 +85,8 @@ private:
     // A pass over a batch of rows.
     struct RowJob {
         SoftKernels::Kernel kernel;
-        RowRange range;
-        std::size_t width, numbers;  // lanes of a row, numbers of a lane
+        SoftRows* rows;
+        SoftRows::Batch batch;
         SoftBody* bodies;
         SoftPass pass;
         void operator()(int begin, int end, int worker) const;
