@@ -193,8 +193,9 @@ void advance_groups(WorldState& world, Team& team, const StepProblem& problem) {
     const StepGroups& groups = world.scratch.groups;
     auto& workshops = world.scratch.workshops;
     workshops.resize(std::size_t(team.worker_count()));
+    const Solver method = world.settings.step.solver;
     for (WorldState::Workshop& workshop : workshops) {
-        if (workshop.solver.index() != world.solver.index()) workshop.solver = world.solver;
+        if (workshop.solver.index() != std::size_t(method)) workshop.solver = make_solver(method);
     }
     const auto is_shared = [&](std::size_t i) { return groups[i].active.size() >= shared_group; };
     for (std::size_t i = 0; i < groups.count(); ++i) {

@@ -145,7 +145,6 @@ Result<World> World::create(const WorldSettings& settings) {
     if (const Refusal r = check_settings(settings)) return *r;
     World world;
     world.state_->settings = settings;
-    world.state_->solver = make_solver(settings.step.solver);
     return world;
 }
 
@@ -157,8 +156,6 @@ const WorldSettings& World::settings() const { return state_->settings; }
 
 Status World::set_settings(const WorldSettings& settings) {
     if (const Refusal r = check_settings(settings)) return tell(*state_, "set_settings", *r);
-    if (settings.step.solver != state_->settings.step.solver)
-        state_->solver = make_solver(settings.step.solver);
     if (settings.step.narrow_phase != state_->settings.step.narrow_phase) forget_sightings(*state_);
     if (settings.step.broad_phase != state_->settings.step.broad_phase) forget_pairs(*state_);
     const bool forbids_sleep = state_->settings.sleeping && !settings.sleeping;

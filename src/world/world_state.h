@@ -78,7 +78,6 @@ struct PairBlock {
 struct WorldState {
     WorldSettings settings;
     std::function<void(const Error&)> on_error;
-    SolverState solver;
     SharedScheduler scheduler;  // copies share it
     OwnTrace trace;
 
