@@ -29,8 +29,10 @@
 namespace cairn {
 
 // Rounds over the points of one manifold, to and fro, on its few numbers alone: a flat face that
-// strikes comes to rest level.
-constexpr int normal_rounds = 2;
+// strikes comes to rest level. A manifold is done when a round has changed no load by more than
+// this share of the largest: what rests takes one.
+constexpr int most_normal_rounds = 6;
+constexpr float settled_share = 1e-3f;
 // Rounds of the friction of one manifold, likewise.
 constexpr int friction_rounds = 4;
 // Surfaces without friction count as having this little, so that what holds only a twist has a
@@ -321,16 +323,22 @@ private:
                     coupling[i][j] = coupling[j][i] = q0 + q1 * y[j] - q2 * x[j];
                 }
             }
+            F largest_change, unsettled = F(1);  // 0 in a lane that is done
             const auto solve_point = [&](int i) {
-                const F before = l[i];
-                l[i] = next(i, u[i], before);
-                const F change = l[i] - before;
+                const F change = unsettled * (next(i, u[i], l[i]) - l[i]);
+                l[i] += change;
                 for (int j = 0; j < P; ++j) u[j] += coupling[i][j] * change;
+                largest_change = max(largest_change, max(change, -change));
             };
             solve_point(0);
-            for (int round = 0; round < normal_rounds; ++round) {
+            for (int round = 0; round < most_normal_rounds; ++round) {
+                largest_change = F(0);
                 for (int i = 1; i < P; ++i) solve_point(i);
                 for (int i = P - 1; i-- > 0;) solve_point(i);
+                const F largest_load = max(max(l[0], l[1]), max(l[P - 2], l[P - 1]));
+                const auto is_settled = F(settled_share) * largest_load > largest_change;
+                unsettled = select(is_settled, F(0), unsettled);
+                if (!any<W>(unsettled > F(0))) break;
             }
             F load, about_1, about_2;
             for (int i = 0; i < P; ++i) {
