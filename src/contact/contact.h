@@ -76,9 +76,6 @@ struct Contact {
     std::array<ContactPoint, 4> points;
 };
 
-// Whether the shapes are in touch and were not after the last step.
-bool has_just_begun(const Contact& contact);
-
 // The points' impulses over the last step, and the contact's own, become zero.
 void clear_impulses(Contact& contact);
 

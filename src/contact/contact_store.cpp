@@ -115,14 +115,6 @@ void ContactStore::remove_contact(PairRecord& pair) {
     pair.meets = false;
 }
 
-bool has_just_begun(const Contact& contact) {
-    if (contact.touching) return false;
-    for (int i = 0; i < contact.point_count; ++i) {
-        if (contact.points[std::size_t(i)].separation <= 0) return true;
-    }
-    return false;
-}
-
 void clear_impulses(Contact& contact) {
     for (int i = 0; i < contact.point_count; ++i) {
         contact.points[std::size_t(i)].normal_impulse = 0;

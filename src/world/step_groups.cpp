@@ -91,7 +91,7 @@ void StepGroups::measure_islands(const WorldState& world) {
         Island& island = islands_[number];
         const Contact& contact = world.contacts[slot];
         island.smallest = island.contacts == 0 ? contact.size : min(island.smallest, contact.size);
-        island.is_new = island.is_new || has_just_begun(contact);
+        island.is_new = island.is_new || !contact.touching;
         ++island.contacts;
     }
 }

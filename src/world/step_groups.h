@@ -5,9 +5,9 @@
 //
 // An island is what contacts hold together, whatever cannot be pushed left out. A large island is a
 // group of its own; small ones are grouped with others of their kind, so that a method may treat a
-// group alike: those whose smallest shapes are of a size, and those in which a contact has just
-// begun. What touches nothing forms groups too. Kinematic bodies are read by all and form the last
-// group.
+// group alike: those whose smallest shapes are of a size, and those in which a contact has yet
+// to close. What touches nothing forms groups too. Kinematic bodies are read by all and form the
+// last group.
 //
 // Groups follow from the bodies and contacts alone, never from who works on them.
 
@@ -40,7 +40,7 @@ private:
     struct Island {
         std::uint32_t bodies = 0, contacts = 0;
         float smallest = 0;   // size of a contact
-        bool is_new = false;  // some contact has just begun
+        bool is_new = false;  // some contact has yet to close
         std::uint32_t group = none;
     };
     // Where a group begins in the lists.

@@ -15,8 +15,9 @@ namespace {
 // for the step calls for more of them, a stack of unit cubes for one.
 constexpr float sinking_share = 6e-4f;
 constexpr int most_parts = 12;
-// A contact that has just begun has neither friction nor an even load to start from.
-constexpr int parts_for_new = 3;
+// A contact that has just begun has neither friction nor an even load to start from; what bounces
+// is in touch for a part at most, and loses less the shorter that is.
+constexpr int parts_for_sudden = 3;
 // One in so many contacts may call for more parts than it gets.
 constexpr std::size_t most_unserved = 16;
 // A contact is at rest that closes or opens no faster than gravity makes it in so many steps.
@@ -105,11 +106,10 @@ void SoftStep::guess_loads(const StepProblem& problem) {
                              .size = contact.size,
                              .load = load});
     }
-    const float slow = resting_steps * float(problem.dt) * length(problem.gravity);
     std::vector<float>& before = loads_before_;
     before.clear();
     for (const FirstGuess::Bearing& bearing : bearings_) before.push_back(bearing.load);
-    if (!first_guess_.add_weights(problem, slow, bearings_)) return;
+    if (!first_guess_.add_weights(problem, resting_speed(problem), bearings_)) return;
     for (std::size_t k = 0; k < bearings_.size(); ++k) {
         const float added = bearings_[k].load - before[k];
         if (!(added > 0)) continue;
@@ -120,15 +120,27 @@ void SoftStep::guess_loads(const StepProblem& problem) {
     }
 }
 
+// Whether two shapes that were apart are in touch, or strike each other within the step or so.
+bool SoftStep::meets(const StepProblem& problem, const FirstGuess::Bearing& bearing) {
+    const float way = 1.5f * float(problem.dt) * bearing.speed;
+    return bearing.gap <= 0 || (bearing.speed < -resting_speed(problem) && bearing.gap + way <= 0);
+}
+
+float SoftStep::resting_speed(const StepProblem& problem) {
+    return resting_steps * float(problem.dt) * length(problem.gravity);
+}
+
 // As many parts as all but a few of the contacts ask for.
 void SoftStep::choose_parts(const StepProblem& problem, float h) {
     // What a spring of one part's frequency sinks by, over the sinking that is allowed: weight over
     // stiffness, g / omega^2.
     const float sinking = length(problem.gravity) * square(h / SoftRows::angular_frequency_share);
     std::array<std::size_t, most_parts + 1> askers = {};
-    for (const std::uint32_t k : problem.active) {
-        const Contact& contact = problem.contacts[k];
-        int parts = has_just_begun(contact) ? parts_for_new : 1;
+    for (std::size_t k = 0; k < problem.active.size(); ++k) {
+        const Contact& contact = problem.contacts[problem.active[k]];
+        const bool is_sudden =
+            contact.restitution > 0 || (!contact.touching && meets(problem, bearings_[k]));
+        int parts = is_sudden ? parts_for_sudden : 1;
         const float allowed = sinking_share * contact.size;
         while (parts < most_parts && sinking > float(parts * parts) * allowed) ++parts;
         ++askers[std::size_t(parts)];

@@ -49,6 +49,8 @@ public:
 
 private:
     void guess_loads(const StepProblem& problem);
+    static float resting_speed(const StepProblem& problem);
+    static bool meets(const StepProblem& problem, const FirstGuess::Bearing& bearing);
     void choose_parts(const StepProblem& problem, float h);
     void load_bodies(const StepProblem& problem);
     void choose_bouncing(const StepProblem& problem);
