@@ -114,11 +114,16 @@ SoftRows::Place SoftRows::take_lane(RowKind kind, std::size_t colour_begin, std:
 }
 
 void SoftRows::give_places(const StepProblem& problem, int width) {
+    std::array<std::size_t, row_kind_count> contacts = {};
+    for (const Link& link : links_) ++contacts[std::size_t(link.kind)];
     for (std::size_t k = 0; k < row_kind_count; ++k) {
         const auto kind = RowKind(k);
         const bool special = is_special(kind);
         arrays_[k].clear(width,
                          points_of(kind) == 1 ? row_numbers<1>(special) : row_numbers<4>(special));
+        // The last row of each colour may be half empty.
+        if (contacts[k] > 0)
+            arrays_[k].make_room(contacts[k] / std::size_t(width) + colours_.count());
     }
     batches_.clear();
     places_.resize(problem.active.size());

@@ -77,7 +77,7 @@ private:
     std::vector<Batch> batches_;
     std::size_t spare_bodies_ = 2;
     std::vector<Place> places_;
-    std::vector<SoftHeft> hefts_;  // by body
+    LargeArray<SoftHeft> hefts_;  // by body
 };
 
 }  // namespace cairn

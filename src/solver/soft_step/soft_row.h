@@ -17,6 +17,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/large_array.h"
 #include "math/mat3.h"
 
 namespace cairn {
@@ -124,12 +125,17 @@ public:
     float& operator[](std::size_t place) { return numbers_[place]; }
     float operator[](std::size_t place) const { return numbers_[place]; }
 
+    // For so many rows at most; their numbers are whatever was there, and all are yet to be filled.
+    void make_room(std::size_t rows) {
+        if (numbers_.size() >= rows * stride_) return;
+        // What was there need not be kept.
+        numbers_.clear();
+        numbers_.resize(rows * stride_);
+    }
     // Adds a row of idle lanes that read `still` and write `nowhere`; no two rows that are worked
-    // on at once may write the same. Its numbers are whatever was there: all are yet to be filled.
+    // on at once may write the same.
     std::size_t add_row(std::uint32_t still, std::uint32_t nowhere) {
         const std::size_t lanes = contacts.size() + width_;
-        const std::size_t needed = lanes / width_ * stride_;
-        if (numbers_.size() < needed) numbers_.resize(std::max(needed, 2 * numbers_.size()));
         read_a.resize(lanes, still);
         read_b.resize(lanes, still);
         write_a.resize(lanes, nowhere);
@@ -144,7 +150,7 @@ public:
     std::vector<std::uint32_t> contacts;  // place in the step's list of contacts
 
 private:
-    std::vector<float> numbers_;
+    LargeArray<float> numbers_;
     std::size_t width_ = 1;
     std::size_t stride_ = 0;
 };
