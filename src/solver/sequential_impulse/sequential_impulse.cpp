@@ -100,17 +100,19 @@ void SequentialImpulse::load_impulses(const StepProblem& problem, float h) {
     for (std::size_t k = 0; k < rows_.size(); ++k) {
         const ContactRows& row = rows_[k];
         const Contact& contact = problem.contacts[row.contact];
+        const PointRow& p = row.points[0];
+        float gap = p.separation;
         for (std::size_t i = 0; i < std::size_t(row.point_count); ++i) {
             accumulated_[k].normal[i] = h * contact.points[i].normal_force;
             loads_[k] += accumulated_[k].normal[i];
+            gap = min(gap, row.points[i].separation);
         }
-        const PointRow& p = row.points[0];
         const Vec3 v = relative_velocity(problem.motions[row.body_a], p.r_a,
                                          problem.motions[row.body_b], p.r_b);
         bearings_.push_back({.body_a = row.body_a,
                              .body_b = row.body_b,
                              .normal = row.normal,
-                             .gap = p.separation,
+                             .gap = gap,
                              .speed = dot(row.normal, v),
                              .size = row.size,
                              .load = loads_[k] / h});
