@@ -113,6 +113,26 @@ TEST_CASE("a column that leans on a wall is no column: nothing is thrown") {
     CHECK(most < std::sqrt(2 * 9.81 * 16));
 }
 
+TEST_CASE("a load too small to have an inverse bears no friction") {
+    WorldSettings settings;
+    settings.gravity = {0, -1e-38f, 0};
+    World world = *World::create(settings);
+    BodyDef ground{.kind = BodyKind::Static};
+    ground.shapes = {{.geometry = Plane{{0, 1, 0}, 0}}};
+    (void)world.create_body(ground);
+    BodyDef ball{.position = {0, 0.5, 0}, .linear_velocity = {1, 0, 0}};
+    ball.shapes = {{.geometry = Sphere{0.5f}, .density = 1}};
+    const BodyId body = *world.create_body(ball);
+    for (int step = 0; step < 10; ++step) {
+        (void)world.step(1.0 / 60);
+        for (const ContactReport& contact : world.contacts()) {
+            CHECK(contact.points[0].normal_impulse < 1e-37f);
+            CHECK(contact.friction_impulse == Vec3{});
+        }
+    }
+    CHECK(world.linear_velocity(body).x == doctest::Approx(1));
+}
+
 TEST_CASE("a ball that spins in a corner is braked by floor and wall, whatever axes are locked") {
     for (const bool locked : {false, true}) {
         World world = make_ground();

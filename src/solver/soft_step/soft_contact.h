@@ -9,6 +9,9 @@
 
 namespace cairn {
 
+// A load of less, N s or N, bears nothing: the inverse of a smaller one may be infinite.
+constexpr float least_load = 1e-30f;
+
 // The contacts of one row; a lane without one reads and writes room of its own.
 template <int W>
 class ContactLanes {

@@ -114,7 +114,7 @@ private:
             force_[i] = select(is_there, state.z, F(0));
             load += force_[i];
         }
-        const auto bears = load > F(0);
+        const auto bears = load > F(least_load);
         const F inverse_load = F(1) / select(bears, load, F(1));
         const F even = F(1) / max(count, F(1));
         for (int i = 0; i < P; ++i) {

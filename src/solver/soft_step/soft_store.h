@@ -31,7 +31,7 @@ public:
         }
         const F inverse_h = F(source_.inverse_h);
         const F twist = store_points(count, load, total);
-        const auto bears = load > F(0);
+        const auto bears = load > F(least_load);
 
         FourLanes<W> torque = {F(0), F(0), F(0), select(bears, inverse_h * twist, F(0))};
         FourLanes<W> impulse = contacts_.read(offsetof(Contact, rolling_impulse));
@@ -67,7 +67,7 @@ private:
             row_.number(CAIRN_FIELD(friction_1)) * t1_ + row_.number(CAIRN_FIELD(friction_2)) * t2_;
         const V rubbed = row_.number(CAIRN_FIELD(friction_total_1)) * t1_ +
                          row_.number(CAIRN_FIELD(friction_total_2)) * t2_;
-        const auto bears = load > F(0), bore = total > F(0);
+        const auto bears = load > F(least_load), bore = total > F(least_load);
         const F inverse_load = select(bears, F(1) / select(bears, load, F(1)), F(0));
         const F inverse_total = select(bore, F(1) / select(bore, total, F(1)), F(0));
         F twist = row_.number(CAIRN_FIELD(twist));
