@@ -89,16 +89,17 @@ void ContactStore::make_room(std::size_t more) {
 
 Contact& ContactStore::add_contact(PairRecord& pair, std::uint32_t body_a, std::uint32_t body_b) {
     if (free_.empty()) {
-        free_.push_back(std::uint32_t(slots_.size()));
+        pair.contact = std::uint32_t(slots_.size());
         slots_.emplace_back();
         sightings_.emplace_back();
         listings_.push_back(Listing::Listed);
+    } else {
+        pair.contact = free_.back();
+        free_.pop_back();
+        slots_[pair.contact] = Contact{};
+        sightings_[pair.contact].owner = FaceSighting::Owner::None;
     }
-    pair.contact = free_.back();
-    free_.pop_back();
-    sightings_[pair.contact].owner = FaceSighting::Owner::None;
     Contact& contact = slots_[pair.contact];
-    contact = Contact{};
     contact.key = key_of(pair);
     contact.shape_a = pair.shape_a;
     contact.shape_b = pair.shape_b;

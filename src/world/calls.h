@@ -32,4 +32,26 @@ inline bool names(const WorldState& world, ShapeId id) {
            world.shapes[id.index].generation == id.generation;
 }
 
+// What the user pushes the body with; it is given room for that when it first is.
+inline UserForces& forces_of(WorldState& world, std::uint32_t body) {
+    std::uint32_t& place = world.bodies[body].forces;
+    if (place == nothing && !world.free_forces.empty()) {
+        place = world.free_forces.back();
+        world.free_forces.pop_back();
+    } else if (place == nothing) {
+        place = std::uint32_t(world.forces.size());
+        world.forces.emplace_back();
+    }
+    return world.forces[place];
+}
+
+// And takes it back.
+inline void forget_forces(WorldState& world, std::uint32_t body) {
+    std::uint32_t& place = world.bodies[body].forces;
+    if (place == nothing) return;
+    world.forces[place] = {};
+    world.free_forces.push_back(place);
+    place = nothing;
+}
+
 }  // namespace cairn

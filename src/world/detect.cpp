@@ -136,6 +136,8 @@ constexpr int bodies_a_block = 128;
 constexpr int searches_a_block = 16;
 constexpr std::size_t pairs_a_block = 256;
 
+constexpr std::size_t many_shapes = 100000;
+
 // The box with room for some steps more.
 Aabb fatten(const WorldState& world, const ShapeRecord& shape, const Aabb& box, bool moves,
             float h) {
@@ -168,8 +170,7 @@ void update_boxes(WorldState& world, Team& team, float h) {
     auto& updated = world.scratch.updated;
     updated.clear();
     const auto add = [&](std::uint32_t body) {
-        const auto& shapes = world.bodies[body].shapes;
-        updated.insert(updated.end(), shapes.begin(), shapes.end());
+        visit_shapes(world, body, [&](std::uint32_t slot) { updated.push_back(slot); });
     };
     for (const std::uint32_t body : world.rest.movers) add(body);
     for (const std::uint32_t body : stale) {
@@ -192,9 +193,10 @@ void update_boxes(WorldState& world, Team& team, float h) {
             if (escaped[i] != 0) update_tree(world, updated[i], h);
         }
         world.tree.insert_many(world.scratch.new_proxies);
-        for (const std::uint32_t body : stale) {
-            for (const std::uint32_t slot : world.bodies[body].shapes) world.tree.look_up(slot);
-        }
+        // A world comes once with so many.
+        if (world.scratch.new_proxies.size() > many_shapes) world.scratch.new_proxies = {};
+        for (const std::uint32_t body : stale)
+            visit_shapes(world, body, [&](std::uint32_t slot) { world.tree.look_up(slot); });
     }
     stale.clear();
 }
@@ -299,29 +301,27 @@ void find_present_pairs(const WorldState& world, double dt, LargeArray<Pair>& pa
     std::erase_if(pairs, [&](const Pair& pair) { return !may_touch(world, pair); });
 }
 
-void update_way(WorldState& world, std::uint32_t body, float h, float fall) {
+void add_to_way(WorldState& world, std::uint32_t body, Quat before) {
     BodyWay& way = world.ways[body];
-    const BodyPlace place = place_of(world, body);
     const BodyMotion& motion = world.motions[body];
-    const Vec3 moved = place.position - way.place.position;
-    if (moved != Vec3{}) way.gone += double(length(moved));
-    if (place.rotation != way.place.rotation) {
-        // A turn moves a point by the chord over its arm.
-        way.gone +=
-            2.0 * double(length(half_turn(place.rotation, way.place.rotation))) * double(way.reach);
-    }
-    way.place = place;
-    way.horizon = way.gone + double(h * length(motion.linear_velocity) + fall);
-    if (motion.angular_velocity != Vec3{})
-        way.horizon += double(min(h * length(motion.angular_velocity), 2.0f) * way.reach);
+    if (motion.displacement != Vec3{}) way.gone += double(length(motion.displacement));
+    if (motion.rotation == before) return;
+    // A turn moves a point by the chord over its arm.
+    way.gone += 2.0 * double(length(half_turn(motion.rotation, before))) * double(way.reach);
 }
 
-void update_ways(WorldState& world, Team& team, double dt) {
+void look_ahead(WorldState& world, Team& team, double dt) {
     const auto h = float(dt);
     const float fall = fall_in(world, h);
     const auto& moving = world.scratch.moving;
     team.for_range(int(moving.size()), bodies_a_block, [&](int begin, int end, int) {
-        for (int i = begin; i < end; ++i) update_way(world, moving[std::size_t(i)], h, fall);
+        for (auto i = std::size_t(begin); i < std::size_t(end); ++i) {
+            BodyWay& way = world.ways[moving[i]];
+            const BodyMotion& motion = world.motions[moving[i]];
+            way.horizon = way.gone + double(h * length(motion.linear_velocity) + fall);
+            if (motion.angular_velocity != Vec3{})
+                way.horizon += double(min(h * length(motion.angular_velocity), 2.0f) * way.reach);
+        }
     });
 }
 

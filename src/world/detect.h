@@ -13,10 +13,10 @@ void find_step_pairs(WorldState& world, Team& team, double dt, LargeArray<Pair>&
 // The same between steps, at the present poses and of all bodies, those that rest included.
 void find_present_pairs(const WorldState& world, double dt, LargeArray<Pair>& pairs);
 
-// How far a body has gone since it was last seen, and may go in h seconds, falling by `fall`; and
-// all that move in this step. One that will not move any more is seen once more when it stops.
-void update_way(WorldState& world, std::uint32_t body, float h, float fall);
-void update_ways(WorldState& world, Team& team, double dt);
+// What a body has gone in a step that it began with the rotation `before`.
+void add_to_way(WorldState& world, std::uint32_t body, Quat before);
+// How far all that move may go in dt seconds.
+void look_ahead(WorldState& world, Team& team, double dt);
 // Whether a pair that was apart cannot have come within reach since, nor come there in this step.
 bool is_apart(const WorldState& world, const PairRecord& pair);
 // The shapes were just measured to be so far apart.

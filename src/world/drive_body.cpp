@@ -74,10 +74,10 @@ Status World::set_constant_force(BodyId id, const Vec3& force, const Vec3& torqu
         return tell(*state_, "set_constant_force", *r);
     if (const Refusal r = check_finite("torque", torque))
         return tell(*state_, "set_constant_force", *r);
-    BodyRecord& body = state_->bodies[id.index];
-    if (body.constant_force == force && body.constant_torque == torque) return Done{};
-    body.constant_force = force;
-    body.constant_torque = torque;
+    UserForces& forces = forces_of(*state_, id.index);
+    if (forces.constant_force == force && forces.constant_torque == torque) return Done{};
+    forces.constant_force = force;
+    forces.constant_torque = torque;
     wake(*state_, id.index);
     return Done{};
 }
@@ -109,7 +109,7 @@ Status World::apply_force(BodyId id, const Vec3& force) {
     if (const Refusal r = check_finite("force", force)) return tell(*state_, "apply_force", *r);
     const FloatEnvironment ieee;
     if (force != Vec3{}) wake(*state_, id.index);
-    state_->bodies[id.index].step_force += force;
+    forces_of(*state_, id.index).step_force += force;
     return Done{};
 }
 
@@ -120,8 +120,8 @@ Status World::apply_force_at(BodyId id, const Vec3& force, const Position& point
         return tell(*state_, "apply_force_at", *r);
     const FloatEnvironment ieee;
     if (force != Vec3{}) wake(*state_, id.index);
-    state_->bodies[id.index].step_force += force;
-    state_->bodies[id.index].step_torque += cross(point - state_->positions[id.index], force);
+    forces_of(*state_, id.index).step_force += force;
+    forces_of(*state_, id.index).step_torque += cross(point - state_->positions[id.index], force);
     return Done{};
 }
 
@@ -130,7 +130,7 @@ Status World::apply_torque(BodyId id, const Vec3& torque) {
     if (const Refusal r = check_finite("torque", torque)) return tell(*state_, "apply_torque", *r);
     const FloatEnvironment ieee;
     if (torque != Vec3{}) wake(*state_, id.index);
-    state_->bodies[id.index].step_torque += torque;
+    forces_of(*state_, id.index).step_torque += torque;
     return Done{};
 }
 

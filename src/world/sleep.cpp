@@ -28,7 +28,7 @@ void stop_moving(WorldState& world, std::uint32_t body) {
     world.rest.any_stopped = world.rest.any_idle = true;
     world.motions[body].displacement = {};
     world.rest.stale.push_back(body);
-    update_way(world, body, 0, 0);
+    world.ways[body].horizon = world.ways[body].gone;
 }
 
 Sleeper& sleeper_of(WorldState& world, std::uint32_t body) {
@@ -56,7 +56,7 @@ void sleep_island(WorldState& world, std::uint32_t island) {
     world.rest.islands.visit_bodies(island, [&](std::uint32_t body) {
         world.motions[body].linear_velocity = {};
         world.motions[body].angular_velocity = {};
-        world.bodies[body].step_force = world.bodies[body].step_torque = {};
+        forget_step_forces(world, body);
         stop_moving(world, body);
     });
 }
@@ -141,10 +141,10 @@ void update_membership(WorldState& world, std::uint32_t body) {
 void measure_extent(WorldState& world, std::uint32_t body) {
     if (!world.rest.islands.is_there(body)) return;
     float thickness = 0, reach = 0;
-    for (const std::uint32_t slot : world.bodies[body].shapes) {
+    visit_shapes(world, body, [&](std::uint32_t slot) {
         thickness = max(thickness, world.shapes[slot].size);
         reach = max(reach, world.shapes[slot].reach);
-    }
+    });
     // Mass may lie beyond the shapes, or there may be none.
     const MassProperties& mass = world.bodies[body].mass_properties;
     const SymmetricMat3& inertia = mass.inertia;

@@ -156,13 +156,17 @@ void report_end(WorldState& world, std::uint32_t slot) {
 // Gives a moving body the forces of the step and lists it; freezes one whose velocity these would
 // take beyond all numbers.
 void drive_body(WorldState& world, std::uint32_t slot, float h) {
-    BodyRecord& body = world.bodies[slot];
+    const BodyRecord& body = world.bodies[slot];
     BodyMotion& motion = world.motions[slot];
     BodyDrive& drive = world.drives[slot];
     motion.displacement = {};
-    drive.force = body.constant_force + body.step_force;
-    drive.torque = body.constant_torque + body.step_torque;
-    body.step_force = body.step_torque = {};
+    drive.force = drive.torque = {};
+    if (body.forces != nothing) {
+        const UserForces& forces = world.forces[body.forces];
+        drive.force = forces.constant_force + forces.step_force;
+        drive.torque = forces.constant_torque + forces.step_torque;
+        forget_step_forces(world, slot);
+    }
     const BodyInertia& inertia = world.inertias[slot];
     const Vec3 push =
         drive.gravity_scale * world.settings.gravity + inertia.inverse_mass * drive.force;
@@ -282,7 +286,7 @@ void tell_news(WorldState& world, PairRecord& pair) {
 }
 
 // Takes a body where the step brought it; which of its numbers is wrong, if one is.
-std::optional<Quantity> move_body(WorldState& world, std::uint32_t slot) {
+std::optional<Quantity> move_body(WorldState& world, std::uint32_t slot, Quat rotation_before) {
     const BodyMotion& motion = world.motions[slot];
     const Position moved = world.positions[slot] + motion.displacement;
     if (!is_sound(motion.linear_velocity)) return Quantity::LinearVelocity;
@@ -290,6 +294,7 @@ std::optional<Quantity> move_body(WorldState& world, std::uint32_t slot) {
     if (!is_finite(motion.displacement) || !is_sound(moved)) return Quantity::Position;
     if (!is_finite(motion.rotation)) return Quantity::Rotation;
     world.positions[slot] = moved;
+    add_to_way(world, slot, rotation_before);
     return std::nullopt;
 }
 
@@ -325,7 +330,7 @@ void find_pairs(WorldState& world, Team& team, double dt) {
 // present whose bodies hardly moved against each other.
 void find_axes(WorldState& world, Team& team, double dt) {
     const StageTimer timer(world, Stage::FindAxes, "find-axes");
-    update_ways(world, team, dt);
+    look_ahead(world, team, dt);
     auto& meetings = world.scratch.meetings;
     meetings.resize(std::max(meetings.size(), world.contacts.pairs().size()));
     for_pair_blocks(world, team, [&](std::span<PairRecord> pairs, std::size_t first, PairBlock&) {
@@ -412,7 +417,7 @@ void move_bodies(WorldState& world, Team& team) {
     wrong.resize(moving.size());
     team.for_range(int(moving.size()), bodies_a_block, [&](int begin, int end, int) {
         for (auto k = std::size_t(begin); k < std::size_t(end); ++k)
-            wrong[k] = move_body(world, moving[k]);
+            wrong[k] = move_body(world, moving[k], world.scratch.before[k].rotation);
     });
     bool any_frozen = false;
     for (std::size_t k = 0; k < moving.size(); ++k) {

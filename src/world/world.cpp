@@ -24,14 +24,14 @@ bool can_move(const WorldState& world, std::uint32_t slot) {
 // none.
 Result<MassProperties> resolve_mass(const BodyRecord& body, BodyKind kind,
                                     std::span<const ShapeDef> shapes) {
-    if (body.given_mass_properties) return *body.given_mass_properties;
+    if (body.has_given_properties) return body.mass_properties;
     MassProperties properties = combined_mass_properties(shapes);
-    if (body.given_mass && properties.mass > 0) {
-        const double scale = double(*body.given_mass) / double(properties.mass);
+    if (body.given_mass > 0 && properties.mass > 0) {
+        const double scale = double(body.given_mass) / double(properties.mass);
         SymmetricMat3& i = properties.inertia;
         for (float* entry : {&i.xx, &i.yy, &i.zz, &i.xy, &i.xz, &i.yz})
             *entry = float(scale * double(*entry));
-        properties.mass = *body.given_mass;
+        properties.mass = body.given_mass;
     }
     if (kind != BodyKind::Dynamic) return properties;
     if (shapes.empty()) {
@@ -44,9 +44,9 @@ Result<MassProperties> resolve_mass(const BodyRecord& body, BodyKind kind,
     return properties;
 }
 
-std::vector<ShapeDef> shape_defs(const WorldState& world, const BodyRecord& body) {
+std::vector<ShapeDef> shape_defs(const WorldState& world, std::uint32_t body) {
     std::vector<ShapeDef> defs;
-    for (const std::uint32_t slot : body.shapes) defs.push_back(world.shapes[slot].def);
+    visit_shapes(world, body, [&](std::uint32_t slot) { defs.push_back(world.shapes[slot].def); });
     return defs;
 }
 
@@ -55,19 +55,19 @@ std::vector<ShapeDef> shape_defs(const WorldState& world, const BodyRecord& body
 void assign_mass(WorldState& world, std::uint32_t slot, const MassProperties& properties) {
     BodyRecord& body = world.bodies[slot];
     BodyMotion& motion = world.motions[slot];
-    const Vec3 shift = rotate(motion.rotation, properties.center_of_mass - body.center_of_mass);
+    const Vec3 shift =
+        rotate(motion.rotation, properties.center_of_mass - body.mass_properties.center_of_mass);
     world.positions[slot] = world.positions[slot] + shift;
     motion.linear_velocity += cross(motion.angular_velocity, shift);
-    body.center_of_mass = properties.center_of_mass;
     body.mass_properties = properties;
     world.inertias[slot] = can_move(world, slot) ? make_inertia(properties) : BodyInertia{};
     float& reach = world.ways[slot].reach = 0;
-    for (const std::uint32_t s : body.shapes) {
+    visit_shapes(world, slot, [&](std::uint32_t s) {
         ShapeRecord& shape = world.shapes[s];
-        shape.offset = shape.def.local_pose.position - body.center_of_mass;
+        shape.offset = shape.def.local_pose.position - properties.center_of_mass;
         shape.reach = length(shape.offset) + bounding_radius(shape.def.geometry);
         reach = max(reach, shape.reach);
-    }
+    });
     measure_extent(world, slot);
 }
 
@@ -90,13 +90,20 @@ std::uint32_t add_shape(WorldState& world, std::uint32_t body, const ShapeDef& d
     if (auto* plane = std::get_if<Plane>(&shape.def.geometry))
         plane->normal = normalize_or(plane->normal, {0, 1, 0});
     shape.size = smallest_half_extent(shape.def.geometry);
-    world.bodies[body].shapes.push_back(slot);
+    BodyRecord& owner = world.bodies[body];
+    shape.previous = owner.last_shape;
+    shape.next = nothing;
+    (owner.last_shape == nothing ? owner.first_shape : world.shapes[owner.last_shape].next) = slot;
+    owner.last_shape = slot;
     return slot;
 }
 
 void remove_shape(WorldState& world, std::uint32_t slot) {
     ShapeRecord& shape = world.shapes[slot];
-    std::erase(world.bodies[shape.body].shapes, slot);
+    BodyRecord& owner = world.bodies[shape.body];
+    (shape.previous == nothing ? owner.first_shape : world.shapes[shape.previous].next) =
+        shape.next;
+    (shape.next == nothing ? owner.last_shape : world.shapes[shape.next].previous) = shape.previous;
     world.tree.remove(slot);
     shape.alive = false;
     ++shape.generation;
@@ -190,9 +197,10 @@ Result<BodyId> World::create_body(const BodyDef& def) {
     WorldState& world = *state_;
     if (const Refusal r = check_body(def)) return tell(world, "create_body", *r);
     BodyRecord wanted;
-    wanted.given_mass = def.mass;
-    wanted.given_mass_properties = def.mass_properties;
-    const Result<MassProperties> mass = resolve_mass(wanted, def.kind, def.shapes);
+    wanted.given_mass = def.mass.value_or(0.0f);
+    wanted.has_given_properties = def.mass_properties.has_value();
+    const Result<MassProperties> mass =
+        def.mass_properties ? *def.mass_properties : resolve_mass(wanted, def.kind, def.shapes);
     if (!mass) return tell(world, "create_body", mass.error());
 
     const std::uint32_t slot = take_slot(world.free_bodies, world.bodies.size());
@@ -208,11 +216,13 @@ Result<BodyId> World::create_body(const BodyDef& def) {
     BodyRecord& body = world.bodies[slot];
     wanted.generation = body.generation;
     wanted.alive = true;
-    wanted.constant_force = def.force;
-    wanted.constant_torque = def.torque;
     wanted.filter = def.collision;
     wanted.can_sleep = def.can_sleep;
-    body = std::move(wanted);
+    body = wanted;
+    if (def.force != Vec3{} || def.torque != Vec3{}) {
+        forces_of(world, slot).constant_force = def.force;
+        forces_of(world, slot).constant_torque = def.torque;
+    }
     ++world.body_count;
 
     world.drives[slot] = {.kind = def.kind,
@@ -225,7 +235,6 @@ Result<BodyId> World::create_body(const BodyDef& def) {
     world.motions[slot] = {.rotation = normalize(def.rotation)};
     for (const ShapeDef& shape : def.shapes) add_shape(world, slot, shape);
     assign_mass(world, slot, *mass);
-    world.ways[slot].place = {world.positions[slot], world.motions[slot].rotation};
     // Given for the center of mass, and nothing moves that is static.
     if (def.kind != BodyKind::Static) {
         world.motions[slot].linear_velocity = def.linear_velocity;
@@ -242,7 +251,8 @@ Status World::destroy_body(BodyId id) {
     BodyRecord& body = world.bodies[id.index];
     note_change(world, id.index);
     forget_contacts(world, id.index);
-    while (!body.shapes.empty()) remove_shape(world, body.shapes.back());
+    while (body.last_shape != nothing) remove_shape(world, body.last_shape);
+    forget_forces(world, id.index);
     const std::uint32_t generation = body.generation + 1;
     body = {};
     body.generation = generation;
@@ -261,7 +271,7 @@ Result<ShapeId> World::create_shape(BodyId id, const ShapeDef& def) {
     if (!names(world, id)) return tell(world, stale("create_shape", "body"));
     const BodyKind kind = world.drives[id.index].kind;
     if (const Refusal r = check_shape("shape", def, kind)) return tell(world, "create_shape", *r);
-    std::vector<ShapeDef> defs = shape_defs(world, world.bodies[id.index]);
+    std::vector<ShapeDef> defs = shape_defs(world, id.index);
     defs.push_back(def);
     const Result<MassProperties> mass = resolve_mass(world.bodies[id.index], kind, defs);
     if (!mass) return tell(world, "create_shape", mass.error());
@@ -278,9 +288,9 @@ Status World::destroy_shape(ShapeId id) {
     const std::uint32_t slot = world.shapes[id.index].body;
     BodyRecord& body = world.bodies[slot];
     std::vector<ShapeDef> defs;
-    for (const std::uint32_t s : body.shapes) {
+    visit_shapes(world, slot, [&](std::uint32_t s) {
         if (s != id.index) defs.push_back(world.shapes[s].def);
-    }
+    });
     const Result<MassProperties> mass = resolve_mass(body, world.drives[slot].kind, defs);
     if (!mass) return tell(world, "destroy_shape", mass.error());
     note_change(world, slot);
@@ -311,8 +321,8 @@ std::vector<ShapeId> World::shapes(BodyId id) const {
         tell(*state_, stale("shapes", "body"));
         return ids;
     }
-    for (const std::uint32_t slot : state_->bodies[id.index].shapes)
-        ids.push_back(shape_id(*state_, slot));
+    visit_shapes(*state_, id.index,
+                 [&](std::uint32_t slot) { ids.push_back(shape_id(*state_, slot)); });
     return ids;
 }
 
@@ -371,7 +381,7 @@ Status World::set_pose(BodyId id, const Position& position, const Quat& rotation
     BodyRecord& body = world.bodies[id.index];
     world.motions[id.index].rotation = normalize(rotation);
     world.positions[id.index] =
-        position + rotate(world.motions[id.index].rotation, body.center_of_mass);
+        position + rotate(world.motions[id.index].rotation, center_of_mass(world, id.index));
     if (body.frozen) {
         body.frozen = false;
         world.inertias[id.index] =
@@ -424,7 +434,7 @@ Status World::move_kinematic(BodyId id, const Position& position, const Quat& ro
     }
     BodyMotion& motion = world.motions[id.index];
     const Quat target = normalize(rotation);
-    const Position center = position + rotate(target, world.bodies[id.index].center_of_mass);
+    const Position center = position + rotate(target, center_of_mass(world, id.index));
     const auto rate = float(1.0 / dt);
     const Vec3 velocity = rate * (center - world.positions[id.index]);
     // The turn's logarithm: the shorter way round.
@@ -446,7 +456,7 @@ Status World::set_kind(BodyId id, BodyKind kind) {
     WorldState& world = *state_;
     if (!names(world, id)) return tell(world, stale("set_kind", "body"));
     BodyRecord& body = world.bodies[id.index];
-    const std::vector<ShapeDef> defs = shape_defs(world, body);
+    const std::vector<ShapeDef> defs = shape_defs(world, id.index);
     for (const ShapeDef& def : defs) {
         if (const Refusal r = check_shape("shape", def, kind)) return tell(world, "set_kind", *r);
     }
@@ -470,8 +480,8 @@ Status World::set_mass_properties(BodyId id, const MassProperties& properties) {
     if (!names(world, id)) return tell(world, stale("set_mass_properties", "body"));
     if (const Refusal r = check_mass_properties("mass_properties", properties))
         return tell(world, "set_mass_properties", *r);
-    world.bodies[id.index].given_mass.reset();
-    world.bodies[id.index].given_mass_properties = properties;
+    world.bodies[id.index].given_mass = 0;
+    world.bodies[id.index].has_given_properties = true;
     assign_mass(world, id.index, properties);
     note_change(world, id.index);
     return Done{};

@@ -23,26 +23,33 @@
 
 namespace cairn {
 
+constexpr std::uint32_t nothing = 0xffffffffu;
+
 // A body's cold side: identity, and what the user said of it.
 struct BodyRecord {
     std::uint32_t generation = 0;
     bool alive = false;
     bool frozen = false;
     bool can_sleep = true;
-    Vec3 center_of_mass;  // body frame
-    Vec3 constant_force, constant_torque;
-    Vec3 step_force, step_torque;  // for the next step alone
+    bool has_given_properties = false;  // its mass properties are the user's, not the shapes'
+    float given_mass = 0;               // what the shapes' densities are scaled to; 0: as they are
     CollisionFilter filter;
     MassProperties mass_properties;  // as dynamic, whatever the kind is now
-    std::optional<float> given_mass;
-    std::optional<MassProperties> given_mass_properties;
-    std::vector<std::uint32_t> shapes;  // slots, ascending in order of creation
+    std::uint32_t first_shape = nothing, last_shape = nothing;  // in order of creation
+    std::uint32_t forces = nothing;  // its place among the user's forces, if there were any
+};
+
+// What the user pushes a body with.
+struct UserForces {
+    Vec3 constant_force, constant_torque;
+    Vec3 step_force, step_torque;  // for the next step alone
 };
 
 struct ShapeRecord {
     std::uint32_t generation = 0;
     bool alive = false;
     std::uint32_t body = 0;
+    std::uint32_t next = nothing, previous = nothing;  // of the same body
     ShapeDef def;
     Vec3 offset;             // of its origin from the body's center of mass, body frame
     bool is_turned = false;  // its axes are not the body's
@@ -52,8 +59,7 @@ struct ShapeRecord {
 
 // How far a body's points have gone at most, m: what two shapes that were apart have left to go.
 struct BodyWay {
-    BodyPlace place;     // when this was last added to
-    double gone = 0;     // so far
+    double gone = 0;     // up to the last step's end
     double horizon = 0;  // and when this step is over
     float reach = 0;     // largest distance of a point from the center of mass
 };
@@ -89,6 +95,8 @@ struct WorldState {
     LargeArray<BodyDrive> drives;
     LargeArray<BodyWay> ways;
     LargeArray<std::uint32_t> free_bodies;
+    std::vector<UserForces> forces;  // of the few bodies that were ever given any
+    std::vector<std::uint32_t> free_forces;
     std::size_t body_count = 0;
 
     LargeArray<ShapeRecord> shapes;  // by shape slot
@@ -143,10 +151,29 @@ inline ShapeId shape_id(const WorldState& world, std::uint32_t slot) {
     return {slot, world.shapes[slot].generation};
 }
 
+// visit(slot) for each shape of the body; it may remove the one that it is given.
+template <class Visit>
+void visit_shapes(const WorldState& world, std::uint32_t body, Visit&& visit) {
+    for (std::uint32_t slot = world.bodies[body].first_shape; slot != nothing;) {
+        const std::uint32_t next = world.shapes[slot].next;
+        visit(slot);
+        slot = next;
+    }
+}
+
+inline void forget_step_forces(WorldState& world, std::uint32_t body) {
+    const std::uint32_t place = world.bodies[body].forces;
+    if (place != nothing) world.forces[place].step_force = world.forces[place].step_torque = {};
+}
+
+inline Vec3 center_of_mass(const WorldState& world, std::uint32_t body) {
+    return world.bodies[body].mass_properties.center_of_mass;  // body frame
+}
+
 // Where the body frame's origin is.
 inline Position origin_position(const WorldState& world, std::uint32_t slot) {
     return world.positions[slot] -
-           rotate(world.motions[slot].rotation, world.bodies[slot].center_of_mass);
+           rotate(world.motions[slot].rotation, center_of_mass(world, slot));
 }
 
 }  // namespace cairn
