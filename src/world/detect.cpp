@@ -172,6 +172,7 @@ void update_boxes(WorldState& world, Team& team, float h) {
     const auto add = [&](std::uint32_t body) {
         visit_shapes(world, body, [&](std::uint32_t slot) { updated.push_back(slot); });
     };
+    updated.reserve(world.rest.movers.size() + stale.size());
     for (const std::uint32_t body : world.rest.movers) add(body);
     for (const std::uint32_t body : stale) {
         if (!moves(world, body)) add(body);
@@ -189,6 +190,8 @@ void update_boxes(WorldState& world, Team& team, float h) {
     });
     if (world.settings.step.broad_phase == BroadPhase::Tree) {
         world.scratch.new_proxies.clear();
+        world.scratch.new_proxies.reserve(
+            updated.size() - std::size_t(std::count(escaped.begin(), escaped.end(), false)));
         for (std::size_t i = 0; i < updated.size(); ++i) {
             if (escaped[i] != 0) update_tree(world, updated[i], h);
         }
