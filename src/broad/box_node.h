@@ -8,7 +8,6 @@
 //
 // size: what a box costs whoever looks for overlaps, see measure().
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -39,8 +38,7 @@ struct alignas(64) BoxNode {
 // Room for `size` elements, at most an eighth more than needed: for arrays of a million.
 template <class Element>
 void reserve_sparingly(LargeArray<Element>& elements, std::size_t size) {
-    if (size > elements.capacity())
-        elements.reserve(std::max(size, elements.capacity() + elements.capacity() / 8 + 16));
+    if (size > elements.capacity()) elements.reserve(size + size / 8 + 16);
 }
 
 inline constexpr Aabb whole_space = {{-BoxNode::infinite, -BoxNode::infinite, -BoxNode::infinite},

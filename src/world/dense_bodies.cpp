@@ -31,6 +31,7 @@ void DenseBodies::gather(WorldState& world, const StepGroup& group, StepProblem&
     drives_.clear();
     heights_.clear();
     moving_.clear();
+    places_.reserve(world.bodies.capacity());
     places_.resize(world.bodies.size());
     for (const std::uint32_t body : group.moving) {
         moving_.push_back(std::uint32_t(slots_.size()));

@@ -177,6 +177,7 @@ void update_boxes(WorldState& world, Team& team, float h) {
     for (const std::uint32_t body : stale) {
         if (!moves(world, body)) add(body);
     }
+    world.boxes.reserve(world.shapes.capacity());
     world.boxes.resize(world.shapes.size());
     auto& escaped = world.scratch.escaped;
     escaped.resize(updated.size());

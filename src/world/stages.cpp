@@ -64,6 +64,7 @@ void freeze(WorldState& world, std::uint32_t slot, Quantity quantity) {
 void find_heights(WorldState& world) {
     const Vec3 up = normalize_or(-world.settings.gravity, {});
     auto& heights = world.scratch.heights;
+    heights.reserve(world.positions.capacity());
     heights.resize(world.positions.size());
     const auto find_height = [&](std::uint32_t body) {
         const Position& p = world.positions[body];
