@@ -30,6 +30,9 @@ private:
     float* row_;
 };
 
+// A pass calls nothing: what it calls lies within it, so that lanes stay in registers.
+#define CAIRN_FLAT [[gnu::flatten]]
+
 // For classes that name their record Row; soft_passes.h ends it.
 #define CAIRN_FIELD(name) offsetof(Row, name)
 

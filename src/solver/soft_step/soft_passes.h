@@ -394,7 +394,7 @@ private:
 };
 
 template <int P, bool Special, int W>
-void warm_start_rows(const RowRange& range, SoftBody* bodies, const SoftPass&) {
+CAIRN_FLAT void warm_start_rows(const RowRange& range, SoftBody* bodies, const SoftPass&) {
     for (std::size_t r = 0; r < range.count; ++r) {
         RowPass<P, Special, W> row(range, r, bodies);
         row.gather();
@@ -404,7 +404,7 @@ void warm_start_rows(const RowRange& range, SoftBody* bodies, const SoftPass&) {
 }
 
 template <int P, bool Special, int W>
-void solve_rows(const RowRange& range, SoftBody* bodies, const SoftPass& pass) {
+CAIRN_FLAT void solve_rows(const RowRange& range, SoftBody* bodies, const SoftPass& pass) {
     for (std::size_t r = 0; r < range.count; ++r) {
         RowPass<P, Special, W> row(range, r, bodies);
         row.gather();
@@ -414,14 +414,14 @@ void solve_rows(const RowRange& range, SoftBody* bodies, const SoftPass& pass) {
 }
 
 template <int P, bool Special, int W>
-void measure_rows(const RowRange& range, SoftBody* bodies, const SoftPass&) {
+CAIRN_FLAT void measure_rows(const RowRange& range, SoftBody* bodies, const SoftPass&) {
     for (std::size_t r = 0; r < range.count; ++r) {
         RowPass<P, Special, W>(range, r, bodies).measure();
     }
 }
 
 template <int P, bool Special, int W>
-void relax_rows(const RowRange& range, SoftBody* bodies, const SoftPass& pass) {
+CAIRN_FLAT void relax_rows(const RowRange& range, SoftBody* bodies, const SoftPass& pass) {
     for (std::size_t r = 0; r < range.count; ++r) {
         RowPass<P, Special, W> row(range, r, bodies);
         row.measure();

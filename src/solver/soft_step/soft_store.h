@@ -113,7 +113,7 @@ private:
 };
 
 template <int P, bool Special, int W>
-void store_rows(const RowRange& range, const RowSource& source) {
+CAIRN_FLAT void store_rows(const RowRange& range, const RowSource& source) {
     for (std::size_t r = 0; r < range.count; ++r) {
         if (r + 1 < range.count) prefetch_contacts<W>(source, range.contacts + (r + 1) * W);
         RowStore<P, Special, W>(range, source, r).store();
