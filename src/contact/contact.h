@@ -4,7 +4,9 @@
 // point, by feature id.
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "math/quat.h"
 
@@ -75,6 +77,34 @@ struct Contact {
 
     std::array<ContactPoint, 4> points;
 };
+
+// Contacts lie in no order: one that will soon be read is asked for, with so many of its points.
+// Compilers take a function that only asks for memory for one that does nothing, unless it is part
+// of its caller; hence the attribute, here and wherever one is asked for.
+[[gnu::always_inline]] inline void prefetch_contact(const Contact& contact, std::size_t points) {
+    const auto* bytes = reinterpret_cast<const char*>(&contact);
+    const std::size_t end = offsetof(Contact, points) + points * sizeof(ContactPoint);
+    for (std::size_t i = 0; i < end; i += 64) __builtin_prefetch(bytes + i);
+}
+// While so many others are worked on.
+constexpr std::size_t contacts_ahead = 6;
+
+// visit(contact, k) for k in [begin, end), the contact at places[k]; the ones that come next are
+// asked for meanwhile.
+template <class SomeContact, class Visit>
+void visit_contacts(std::span<SomeContact> contacts, std::span<const std::uint32_t> places,
+                    std::size_t begin, std::size_t end, std::size_t points, Visit&& visit) {
+    for (std::size_t k = begin; k < end; ++k) {
+        if (k + contacts_ahead < end)
+            prefetch_contact(contacts[places[k + contacts_ahead]], points);
+        visit(contacts[places[k]], k);
+    }
+}
+template <class SomeContact, class Visit>
+void visit_contacts(std::span<SomeContact> contacts, std::span<const std::uint32_t> places,
+                    std::size_t points, Visit&& visit) {
+    visit_contacts(contacts, places, 0, places.size(), points, visit);
+}
 
 // The points' impulses over the last step, and the contact's own, become zero.
 void clear_impulses(Contact& contact);

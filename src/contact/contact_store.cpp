@@ -97,8 +97,8 @@ Contact& ContactStore::add_contact(PairRecord& pair, std::uint32_t body_a, std::
         pair.contact = free_.back();
         free_.pop_back();
         slots_[pair.contact] = Contact{};
-        sightings_[pair.contact].owner = FaceSighting::Owner::None;
     }
+    pair.shows_face = false;
     Contact& contact = slots_[pair.contact];
     contact.key = key_of(pair);
     contact.shape_a = pair.shape_a;
@@ -113,7 +113,7 @@ void ContactStore::remove_contact(PairRecord& pair) {
     by_body_.detach(pair.contact);
     free_.push_back(pair.contact);
     pair.contact = none;
-    pair.meets = false;
+    pair.meets = pair.shows_face = false;
 }
 
 void clear_impulses(Contact& contact) {

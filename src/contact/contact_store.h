@@ -28,9 +28,10 @@ struct PairRecord {
     std::uint32_t shape_a = 0, shape_b = 0;
     std::uint32_t contact = PairTable::none;  // its slot
     AxisHint hint;
-    bool meets = false;     // has contact points in this step
-    bool is_found = false;  // and they are found anew
-    bool has_news = false;  // its contact began, ended or has no points
+    bool meets = false;       // has contact points in this step
+    bool is_found = false;    // and they are found anew
+    bool has_news = false;    // its contact began, ended or has no points
+    bool shows_face = false;  // its contact's sighting is of a face that can be followed
     // The shapes have stayed apart while the ways that the two bodies have gone together are less
     // than this (world/detect.h).
     double apart_until = -1;
@@ -71,9 +72,18 @@ public:
     void make_room(std::size_t more);
     void remove_contact(PairRecord& pair);
     std::span<Contact> slots() { return slots_; }
+    std::span<const Contact> slots() const { return slots_; }
     Contact& operator[](std::uint32_t slot) { return slots_[slot]; }
     const Contact& operator[](std::uint32_t slot) const { return slots_[slot]; }
     FaceSighting& sighting(std::uint32_t slot) { return sightings_[slot]; }
+    // The contact and what is needed to follow its face; any slot will do.
+    [[gnu::always_inline]] void prefetch(std::uint32_t slot, std::size_t points) const {
+        if (slot < slots_.size()) prefetch_contact(slots_[slot], points);
+    }
+    [[gnu::always_inline]] void prefetch_sighting(std::uint32_t slot) const {
+        const auto* bytes = reinterpret_cast<const char*>(&sightings_[slot]);
+        for (std::size_t i = 0; i < sizeof(FaceSighting); i += 64) __builtin_prefetch(bytes + i);
+    }
     std::size_t contact_count() const { return slots_.size() - free_.size(); }
 
     // visit(slot) for each contact of the body, put aside or not.

@@ -24,8 +24,8 @@ struct BodyPlace {
 
 // What the last look at two shapes of which one showed a face found, and where the bodies were.
 struct FaceSighting {
-    enum class Owner : std::uint8_t { None, A, B };
-    Owner owner = Owner::None;  // of the face
+    enum class Owner : std::uint8_t { A, B };
+    Owner owner = Owner::A;  // of the face
     BodyPlace place_a, place_b;
     Vec3 normal;  // in the owner's frame
     std::array<Vec3, 4> arms_a, arms_b;

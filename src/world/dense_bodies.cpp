@@ -13,7 +13,9 @@ void DenseBodies::add(const WorldState& world, std::uint32_t body) {
     motions_.push_back(world.motions[body]);
     inertias_.push_back(world.inertias[body]);
     drives_.push_back(world.drives[body]);
-    heights_.push_back(world.scratch.heights[body]);
+    // An order alone, so that binary32 is enough.
+    const Position& p = world.positions[body];
+    heights_.push_back(float(double(up_.x) * p.x + double(up_.y) * p.y + double(up_.z) * p.z));
 }
 
 std::uint32_t DenseBodies::place_guest(const WorldState& world, std::uint32_t body) {
@@ -25,6 +27,7 @@ std::uint32_t DenseBodies::place_guest(const WorldState& world, std::uint32_t bo
 }
 
 void DenseBodies::gather(WorldState& world, const StepGroup& group, StepProblem& problem) {
+    up_ = normalize_or(-world.settings.gravity, {});
     slots_.clear();
     motions_.clear();
     inertias_.clear();
@@ -37,11 +40,10 @@ void DenseBodies::gather(WorldState& world, const StepGroup& group, StepProblem&
         moving_.push_back(std::uint32_t(slots_.size()));
         add(world, body);
     }
-    for (const std::uint32_t slot : group.active) {
-        Contact& contact = world.contacts[slot];
+    visit_contacts(world.contacts.slots(), group.active, 0, [&](Contact& contact, std::size_t) {
         contact.body_a = place_guest(world, contact.body_a);
         contact.body_b = place_guest(world, contact.body_b);
-    }
+    });
     problem.motions = motions_;
     problem.inertias = inertias_;
     problem.drives = drives_;
@@ -54,11 +56,10 @@ void DenseBodies::scatter(WorldState& world, const StepGroup& group) const {
     // The group's own bodies came first.
     for (std::size_t i = 0; i < group.moving.size(); ++i)
         world.motions[group.moving[i]] = motions_[i];
-    for (const std::uint32_t slot : group.active) {
-        Contact& contact = world.contacts[slot];
+    visit_contacts(world.contacts.slots(), group.active, 0, [&](Contact& contact, std::size_t) {
         contact.body_a = slots_[contact.body_a];
         contact.body_b = slots_[contact.body_b];
-    }
+    });
 }
 
 }  // namespace cairn

@@ -36,6 +36,7 @@ private:
     LargeArray<BodyMotion> motions_;
     LargeArray<BodyInertia> inertias_;
     LargeArray<BodyDrive> drives_;
+    Vec3 up_;  // against gravity
     LargeArray<float> heights_;
     LargeArray<std::uint32_t> moving_;  // places
 };

@@ -426,8 +426,8 @@ void build_contact_points(const WorldState& world, const Meeting& meeting, float
 }
 
 bool follow_contact(WorldState& world, const PairRecord& pair) {
+    if (!pair.shows_face) return false;
     const FaceSighting& seen = world.contacts.sighting(pair.contact);
-    if (seen.owner == FaceSighting::Owner::None) return false;
     Contact& contact = world.contacts[pair.contact];
     // What touches for the first time is measured, and so is what points left out may come to.
     if (!contact.touching || contact.point_count == 0) return false;
@@ -439,9 +439,8 @@ bool follow_contact(WorldState& world, const PairRecord& pair) {
                        place_of(world, contact.body_b));
 }
 
-void remember_contact(WorldState& world, const PairRecord& pair, const Meeting& meeting) {
-    FaceSighting& seen = world.contacts.sighting(pair.contact);
-    seen.owner = FaceSighting::Owner::None;
+void remember_contact(WorldState& world, PairRecord& pair, const Meeting& meeting) {
+    pair.shows_face = false;
     const Contact& contact = world.contacts[pair.contact];
     const Geometry& a = world.shapes[pair.shape_a].def.geometry;
     const Geometry& b = world.shapes[pair.shape_b].def.geometry;
@@ -451,8 +450,10 @@ void remember_contact(WorldState& world, const PairRecord& pair, const Meeting& 
     const bool of_a = is_plane(a) || (meeting.axis.on_hint && kind == BoxAxisKind::FaceA);
     const bool of_b = is_plane(b) || (meeting.axis.on_hint && kind == BoxAxisKind::FaceB);
     if (!of_a && !of_b) return;
+    pair.shows_face = true;
     remember_face(contact, place_of(world, contact.body_a), place_of(world, contact.body_b),
-                  of_a ? FaceSighting::Owner::A : FaceSighting::Owner::B, meeting.within, seen);
+                  of_a ? FaceSighting::Owner::A : FaceSighting::Owner::B, meeting.within,
+                  world.contacts.sighting(pair.contact));
 }
 
 }  // namespace cairn

@@ -42,6 +42,6 @@ void build_contact_points(const WorldState& world, const Meeting& meeting, float
 // have hardly moved against each other since (contact/reuse.h); false where it must be found anew.
 bool follow_contact(WorldState& world, const PairRecord& pair);
 // What was just found, for that.
-void remember_contact(WorldState& world, const PairRecord& pair, const Meeting& meeting);
+void remember_contact(WorldState& world, PairRecord& pair, const Meeting& meeting);
 
 }  // namespace cairn

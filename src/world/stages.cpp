@@ -59,24 +59,6 @@ void freeze(WorldState& world, std::uint32_t slot, Quantity quantity) {
         {body_id(world, slot), world.report.step, world.report.time, quantity});
 }
 
-// How high the bodies are that move or are touched, against gravity: an order, so that binary32 is
-// enough.
-void find_heights(WorldState& world) {
-    const Vec3 up = normalize_or(-world.settings.gravity, {});
-    auto& heights = world.scratch.heights;
-    heights.reserve(world.positions.capacity());
-    heights.resize(world.positions.size());
-    const auto find_height = [&](std::uint32_t body) {
-        const Position& p = world.positions[body];
-        heights[body] = float(double(up.x) * p.x + double(up.y) * p.y + double(up.z) * p.z);
-    };
-    for (const std::uint32_t body : world.scratch.moving) find_height(body);
-    for (const std::uint32_t slot : world.scratch.active) {
-        find_height(world.contacts[slot].body_a);
-        find_height(world.contacts[slot].body_b);
-    }
-}
-
 // A contact without points: nothing is left of it but that it touched, until that is reported.
 void clear_contact(Contact& contact) {
     contact.point_count = 0;
@@ -93,6 +75,15 @@ bool is_touching(const Contact& contact) {
         if (p.separation <= 0 || p.normal_impulse > 0) return true;
     }
     return false;
+}
+
+// What find_axis_of_pair will read to follow the pair's face.
+[[gnu::always_inline]] inline void prefetch_face(const WorldState& world,
+                                                 std::span<const PairRecord> pairs, std::size_t i) {
+    if (i >= pairs.size() || !pairs[i].shows_face) return;
+    const PairRecord& pair = pairs[i];
+    world.contacts.prefetch(pair.contact, 4);
+    world.contacts.prefetch_sighting(pair.contact);
 }
 
 // The axis of a pair, or its points from an earlier step's.
@@ -216,6 +207,14 @@ void advance_groups(WorldState& world, Team& team, const StepProblem& problem) {
     advance_group(world, groups.kinematic_group(), workshops[0], problem, nullptr);
 }
 
+// The contact whose points find_points will renew.
+[[gnu::always_inline]] inline void prefetch_found(const WorldState& world,
+                                                  std::span<const PairRecord> pairs,
+                                                  std::size_t i) {
+    if (i < pairs.size() && pairs[i].is_found)
+        world.contacts.prefetch(pairs[i].contact, pairs[i].shows_face ? 4 : 1);
+}
+
 // Gives a contact to each pair that meets and has none.
 void create_contacts(WorldState& world) {
     const std::span<PairRecord> pairs = world.contacts.pairs();
@@ -335,8 +334,10 @@ void find_axes(WorldState& world, Team& team, double dt) {
     auto& meetings = world.scratch.meetings;
     meetings.resize(std::max(meetings.size(), world.contacts.pairs().size()));
     for_pair_blocks(world, team, [&](std::span<PairRecord> pairs, std::size_t first, PairBlock&) {
-        for (std::size_t i = 0; i < pairs.size(); ++i)
+        for (std::size_t i = 0; i < pairs.size(); ++i) {
+            prefetch_face(world, pairs, i + contacts_ahead);
             find_axis_of_pair(world, dt, pairs[i], meetings[first + i]);
+        }
     });
 }
 
@@ -348,6 +349,7 @@ void build_manifolds(WorldState& world, Team& team) {
     for_pair_blocks(world, team,
                     [&](std::span<PairRecord> pairs, std::size_t first, PairBlock& block) {
                         for (std::size_t i = 0; i < pairs.size(); ++i) {
+                            prefetch_found(world, pairs, i + contacts_ahead);
                             if (pairs[i].is_found)
                                 find_points(world, pairs[i], meetings[first + i]);
                         }
@@ -383,7 +385,6 @@ void join_islands(WorldState& world, Team& team, double dt) {
 // Reads everything above; writes velocities, rotations, displacements and impulses.
 void advance(WorldState& world, Team& team, double dt) {
     const StageTimer timer(world, Stage::Solve, "solve");
-    find_heights(world);
     auto& before = world.scratch.before;
     before.clear();
     for (const std::uint32_t slot : world.scratch.moving) before.push_back(world.motions[slot]);
@@ -392,7 +393,7 @@ void advance(WorldState& world, Team& team, double dt) {
         .motions = world.motions,
         .inertias = world.inertias,
         .drives = world.drives,
-        .heights = world.scratch.heights,
+        .heights = {},  // each group brings its own
         .moving = world.scratch.moving,
         .contacts = world.contacts.slots(),
         .active = world.scratch.active,
@@ -441,7 +442,10 @@ void report_contacts(WorldState& world, Team& team) {
     const StageTimer timer(world, Stage::Finish, "report-contacts");
     for_pair_blocks(world, team, [&](std::span<PairRecord> pairs, std::size_t, PairBlock& block) {
         block.has_news = false;
-        for (PairRecord& pair : pairs) {
+        for (std::size_t i = 0; i < pairs.size(); ++i) {
+            if (i + contacts_ahead < pairs.size())
+                world.contacts.prefetch(pairs[i + contacts_ahead].contact, 1);
+            PairRecord& pair = pairs[i];
             pair.has_news =
                 pair.contact != ContactStore::none && has_news(world.contacts[pair.contact]);
             block.has_news = block.has_news || pair.has_news;

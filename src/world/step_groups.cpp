@@ -36,6 +36,7 @@ StepGroup StepGroups::operator[](std::size_t group) const {
 }
 
 void StepGroups::form(const WorldState& world) {
+    read_contacts(world);
     join_bodies(world);
     measure_islands(world);
     give_groups();
@@ -50,23 +51,33 @@ std::uint32_t StepGroups::find_root(std::uint32_t body) {
     return body;
 }
 
+void StepGroups::read_contacts(const WorldState& world) {
+    const auto pushed = [&](std::uint32_t body) { return is_pushed(world, body) ? body : none; };
+    edges_.resize(world.scratch.active.size());
+    visit_contacts(world.contacts.slots(), std::span<const std::uint32_t>(world.scratch.active), 0,
+                   [&](const Contact& contact, std::size_t k) {
+                       edges_[k] = {.body_a = pushed(contact.body_a),
+                                    .body_b = pushed(contact.body_b),
+                                    .size = contact.size,
+                                    .touching = contact.touching};
+                   });
+}
+
 // Of two roots the lower one stays, so that an island is numbered when its first body is met.
 void StepGroups::join_bodies(const WorldState& world) {
     parents_.resize(world.bodies.size());
     for (const std::uint32_t body : world.scratch.moving) parents_[body] = body;
-    for (const std::uint32_t slot : world.scratch.active) {
-        const Contact& contact = world.contacts[slot];
-        if (!is_pushed(world, contact.body_a) || !is_pushed(world, contact.body_b)) continue;
-        const std::uint32_t a = find_root(contact.body_a);
-        const std::uint32_t b = find_root(contact.body_b);
+    for (const Edge& edge : edges_) {
+        if (edge.body_a == none || edge.body_b == none) continue;
+        const std::uint32_t a = find_root(edge.body_a);
+        const std::uint32_t b = find_root(edge.body_b);
         parents_[std::max(a, b)] = std::min(a, b);
     }
 }
 
-std::uint32_t StepGroups::island_of_contact(const WorldState& world, std::uint32_t slot) const {
-    const Contact& contact = world.contacts[slot];
-    if (is_pushed(world, contact.body_a)) return island_[contact.body_a];
-    return is_pushed(world, contact.body_b) ? island_[contact.body_b] : none;
+std::uint32_t StepGroups::island_of(const Edge& edge) const {
+    if (edge.body_a != none) return island_[edge.body_a];
+    return edge.body_b != none ? island_[edge.body_b] : none;
 }
 
 void StepGroups::measure_islands(const WorldState& world) {
@@ -85,13 +96,12 @@ void StepGroups::measure_islands(const WorldState& world) {
         island_[body] = island_[root];
         ++islands_[island_[body]].bodies;
     }
-    for (const std::uint32_t slot : world.scratch.active) {
-        const std::uint32_t number = island_of_contact(world, slot);
+    for (const Edge& edge : edges_) {
+        const std::uint32_t number = island_of(edge);
         if (number == none) continue;
         Island& island = islands_[number];
-        const Contact& contact = world.contacts[slot];
-        island.smallest = island.contacts == 0 ? contact.size : min(island.smallest, contact.size);
-        island.is_new = island.is_new || !contact.touching;
+        island.smallest = island.contacts == 0 ? edge.size : min(island.smallest, edge.size);
+        island.is_new = island.is_new || !edge.touching;
         ++island.contacts;
     }
 }
@@ -136,10 +146,11 @@ void StepGroups::fill_lists(const WorldState& world) {
     next_ = groups_;
     for (const std::uint32_t body : world.scratch.moving)
         moving_[next_[group_of(body)].moving++] = body;
-    for (const std::uint32_t slot : world.scratch.active) {
-        const std::uint32_t island = island_of_contact(world, slot);
+    for (std::size_t k = 0; k < edges_.size(); ++k) {
+        const std::uint32_t island = island_of(edges_[k]);
         // What two bodies that cannot be pushed do to each other is nothing.
-        if (island != none) active_[next_[islands_[island].group].active++] = slot;
+        if (island != none)
+            active_[next_[islands_[island].group].active++] = world.scratch.active[k];
     }
 }
 

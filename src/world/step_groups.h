@@ -54,13 +54,22 @@ private:
         std::uint32_t bodies = 0, contacts = 0;
     };
 
+    // What groups follow from of a contact; `none` for a body that cannot be pushed.
+    struct Edge {
+        std::uint32_t body_a = none, body_b = none;
+        float size = 0;
+        bool touching = false;
+    };
+
+    void read_contacts(const WorldState& world);
     std::uint32_t find_root(std::uint32_t body);
     void join_bodies(const WorldState& world);
     void measure_islands(const WorldState& world);
     void give_groups();
     void fill_lists(const WorldState& world);
-    std::uint32_t island_of_contact(const WorldState& world, std::uint32_t slot) const;
+    std::uint32_t island_of(const Edge& edge) const;
 
+    std::vector<Edge> edges_;             // by place in the list of contacts
     std::vector<std::uint32_t> parents_;  // by body, of those that move
     std::vector<std::uint32_t> island_;   // likewise; none for kinematic ones
     std::vector<Island> islands_;

@@ -123,8 +123,7 @@ void forget_contacts(WorldState& world, std::uint32_t body) {
 void forget_sightings(WorldState& world) {
     for (PairRecord& pair : world.contacts.pairs()) {
         pair.apart_until = -1;
-        if (pair.contact == ContactStore::none) continue;
-        world.contacts.sighting(pair.contact).owner = FaceSighting::Owner::None;
+        pair.shows_face = false;
     }
 }
 

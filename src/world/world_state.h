@@ -138,7 +138,6 @@ struct WorldState {
         LargeArray<std::uint32_t> active;
         LargeArray<BodyMotion> before;
         LargeArray<std::optional<Quantity>> wrong;  // as `moving`: which of its numbers
-        LargeArray<float> heights;
         StepGroups groups;
         std::vector<Workshop> workshops;  // by worker
     } scratch;

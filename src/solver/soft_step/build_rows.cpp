@@ -47,8 +47,6 @@ RowKind kind_of(const StepProblem& problem, const Contact& contact) {
     return special ? RowKind::FourPointsSpecial : RowKind::FourPoints;
 }
 
-// Contacts are read in blocks of so many, some microseconds' work.
-constexpr int contacts_a_block = 64;
 constexpr int bodies_a_block = 128;
 
 SoftHeft make_heft(const BodyInertia& inertia, const Response& response, Quat rotation) {
@@ -79,25 +77,22 @@ RowRange SoftRows::range(const Batch& batch, int begin, int end) {
             .count = std::size_t(end - begin)};
 }
 
-void SoftRows::read_contacts(const StepProblem& problem) {
-    const Vec3 up = normalize_or(-problem.gravity, {});
-    const std::size_t count = problem.active.size();
-    links_.resize(count);
-    edges_.resize(count);
-    problem.for_range(count, contacts_a_block, [&](int begin, int end) {
-        for (auto k = std::size_t(begin); k < std::size_t(end); ++k) {
-            const Contact& contact = problem.contacts[problem.active[k]];
-            links_[k] = {.kind = kind_of(problem, contact),
-                         .point_count = std::uint8_t(contact.point_count),
-                         .bounces = contact.restitution > 0,
-                         .turns_with_a = contact.turns_with_a,
-                         .turns_with_b = contact.turns_with_b,
-                         .upright = absolute(dot(contact.normal, up))};
-            edges_[k] = {contact.body_a, contact.body_b,
-                         problem.inertias[contact.body_a].inverse_mass > 0,
-                         problem.inertias[contact.body_b].inverse_mass > 0};
-        }
-    });
+void SoftRows::begin_reading(const StepProblem& problem) {
+    up_ = normalize_or(-problem.gravity, {});
+    links_.resize(problem.active.size());
+    edges_.resize(problem.active.size());
+}
+
+void SoftRows::read(const StepProblem& problem, const Contact& contact, std::size_t k) {
+    links_[k] = {.kind = kind_of(problem, contact),
+                 .point_count = std::uint8_t(contact.point_count),
+                 .bounces = contact.restitution > 0,
+                 .touching = contact.touching,
+                 .turns_with_a = contact.turns_with_a,
+                 .turns_with_b = contact.turns_with_b,
+                 .upright = absolute(dot(contact.normal, up_))};
+    edges_[k] = {contact.body_a, contact.body_b, problem.inertias[contact.body_a].inverse_mass > 0,
+                 problem.inertias[contact.body_b].inverse_mass > 0};
 }
 
 SoftRows::Place SoftRows::take_lane(RowKind kind, std::size_t colour_begin, std::uint32_t nobody) {

@@ -33,10 +33,12 @@ public:
         RowKind kind = RowKind::OnePoint;
         std::uint8_t point_count = 0;
         bool bounces = false;
+        bool touching = false;  // before the step
         bool turns_with_a = false, turns_with_b = false;
         float upright = 0;  // the cosine between its normal and gravity, either way
     };
-    void read_contacts(const StepProblem& problem);
+    void begin_reading(const StepProblem& problem);
+    void read(const StepProblem& problem, const Contact& contact, std::size_t k);
     std::span<const Link> links() const { return links_; }
     std::span<const Colouring::Edge> edges() const { return edges_; }
 
@@ -68,6 +70,7 @@ private:
     void exchange(const StepProblem& problem,
                   const SoftKernels::Exchange (&kernels)[row_kind_count], const RowSource& source);
 
+    Vec3 up_;  // against gravity
     std::vector<Link> links_;
     std::vector<Colouring::Edge> edges_;
     Colouring colouring_;

@@ -59,7 +59,8 @@ private:
 
 // Contacts lie far apart in memory: a row's are asked for while the one before it is worked on.
 template <int W>
-inline void prefetch_contacts(const RowSource& source, const std::uint32_t* contacts) {
+[[gnu::always_inline]] inline void prefetch_contacts(const RowSource& source,
+                                                     const std::uint32_t* contacts) {
     for (int lane = 0; lane < W; ++lane) {
         const std::uint32_t k = contacts[lane];
         if (k == RowArray::idle) continue;

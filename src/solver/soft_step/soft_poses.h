@@ -54,7 +54,8 @@ inline QuatLanes<W> exponential(const Vec3Lanes<W>& t) {
 
 // `places` holds count bodies, a multiple of W.
 template <int W>
-CAIRN_FLAT void move_bodies(SoftBody* bodies, const std::uint32_t* places, std::size_t count, float h) {
+CAIRN_FLAT void move_bodies(SoftBody* bodies, const std::uint32_t* places, std::size_t count,
+                            float h) {
     using F = Lanes<W>;
     for (std::size_t i = 0; i < count; i += W) {
         float* numbers[W];

@@ -24,18 +24,40 @@ constexpr std::size_t most_unserved = 16;
 constexpr float resting_steps = 2;
 // Bodies are moved in groups of at most so many.
 constexpr std::size_t widest = 16;
-// Bodies are shared out in blocks of so many, about a microsecond's work.
+// Bodies and contacts are shared out in blocks of so many, about a microsecond's work.
 constexpr int bodies_a_block = 64;
+constexpr int contacts_a_block = 64;
 constexpr int moved_a_block = 16 * int(widest);
 // Radians that a body may turn before its contacts are anchored anew: their arms then point that
 // much aside, and what they do to its spin is off by as much.
 constexpr float farthest_turn = 0.1f;
+
+FirstGuess::Bearing find_bearing(const StepProblem& problem, const Contact& contact) {
+    const BodyMotion& a = problem.motions[contact.body_a];
+    const BodyMotion& b = problem.motions[contact.body_b];
+    const ContactPoint& p = contact.points[0];
+    float gap = p.separation, load = 0;
+    for (int i = 0; i < contact.point_count; ++i) {
+        gap = min(gap, contact.points[std::size_t(i)].separation);
+        load += contact.points[std::size_t(i)].normal_force;
+    }
+    const Vec3 v =
+        relative_velocity(a, find_arm(p.arm_a, a.rotation), b, find_arm(p.arm_b, b.rotation));
+    return {.body_a = contact.body_a,
+            .body_b = contact.body_b,
+            .normal = contact.normal,
+            .gap = gap,
+            .speed = dot(contact.normal, v),
+            .size = contact.size,
+            .load = load};
+}
 
 }  // namespace
 
 void SoftStep::advance(const StepProblem& problem) {
     const SoftKernels& kernels = find_soft_kernels(problem.lanes);
     const auto h = float(problem.dt / problem.substeps);
+    read_contacts(problem);
     guess_loads(problem);
     choose_parts(problem, h);
     const float part = h / float(parts_);
@@ -84,28 +106,20 @@ void SoftStep::advance(const StepProblem& problem) {
     store_bodies(problem);
 }
 
+// All that is asked of contacts before their rows are filled, at once: they lie far apart.
+void SoftStep::read_contacts(const StepProblem& problem) {
+    rows_.begin_reading(problem);
+    bearings_.resize(problem.active.size());
+    problem.for_range(problem.active.size(), contacts_a_block, [&](int begin, int end) {
+        visit_contacts(problem.contacts, problem.active, std::size_t(begin), std::size_t(end), 2,
+                       [&](const Contact& contact, std::size_t k) {
+                           rows_.read(problem, contact, k);
+                           bearings_[k] = find_bearing(problem, contact);
+                       });
+    });
+}
+
 void SoftStep::guess_loads(const StepProblem& problem) {
-    bearings_.clear();
-    for (const std::uint32_t k : problem.active) {
-        const Contact& contact = problem.contacts[k];
-        const BodyMotion& a = problem.motions[contact.body_a];
-        const BodyMotion& b = problem.motions[contact.body_b];
-        const ContactPoint& p = contact.points[0];
-        float gap = p.separation, load = 0;
-        for (int i = 0; i < contact.point_count; ++i) {
-            gap = min(gap, contact.points[std::size_t(i)].separation);
-            load += contact.points[std::size_t(i)].normal_force;
-        }
-        const Vec3 v =
-            relative_velocity(a, find_arm(p.arm_a, a.rotation), b, find_arm(p.arm_b, b.rotation));
-        bearings_.push_back({.body_a = contact.body_a,
-                             .body_b = contact.body_b,
-                             .normal = contact.normal,
-                             .gap = gap,
-                             .speed = dot(contact.normal, v),
-                             .size = contact.size,
-                             .load = load});
-    }
     std::vector<float>& before = loads_before_;
     before.clear();
     for (const FirstGuess::Bearing& bearing : bearings_) before.push_back(bearing.load);
@@ -137,11 +151,10 @@ void SoftStep::choose_parts(const StepProblem& problem, float h) {
     const float sinking = length(problem.gravity) * square(h / SoftRows::angular_frequency_share);
     std::array<std::size_t, most_parts + 1> askers = {};
     for (std::size_t k = 0; k < problem.active.size(); ++k) {
-        const Contact& contact = problem.contacts[problem.active[k]];
-        const bool is_sudden =
-            contact.restitution > 0 || (!contact.touching && meets(problem, bearings_[k]));
+        const SoftRows::Link& link = rows_.links()[k];
+        const bool is_sudden = link.bounces || (!link.touching && meets(problem, bearings_[k]));
         int parts = is_sudden ? parts_for_sudden : 1;
-        const float allowed = sinking_share * contact.size;
+        const float allowed = sinking_share * bearings_[k].size;
         while (parts < most_parts && sinking > float(parts * parts) * allowed) ++parts;
         ++askers[std::size_t(parts)];
     }
@@ -206,7 +219,6 @@ void SoftStep::load_bodies(const StepProblem& problem) {
         bodies_[i].v = courses_[i].free_v = motion.linear_velocity;
         bodies_[i].w = courses_[i].free_w = motion.angular_velocity;
     }
-    rows_.read_contacts(problem);
     for (std::size_t k = 0; k < problem.active.size(); ++k) {
         Course& a = courses_[rows_.edges()[k].body_a];
         Course& b = courses_[rows_.edges()[k].body_b];

@@ -48,6 +48,7 @@ public:
     void advance(const StepProblem& problem);
 
 private:
+    void read_contacts(const StepProblem& problem);
     void guess_loads(const StepProblem& problem);
     static float resting_speed(const StepProblem& problem);
     static bool meets(const StepProblem& problem, const FirstGuess::Bearing& bearing);
