@@ -28,7 +28,7 @@ inline bool names(const WorldState& world, BodyId id) {
 }
 
 inline bool names(const WorldState& world, ShapeId id) {
-    return id.index < world.shapes.size() && world.shapes[id.index].alive &&
+    return id.index < world.shapes.size() && world.shapes[id.index].is_alive() &&
            world.shapes[id.index].generation == id.generation;
 }
 

@@ -32,13 +32,16 @@ bool is_plane(const Geometry& geometry) { return std::holds_alternative<Plane>(g
 
 // From the body's center of mass to the shape's origin, along world axes.
 Vec3 shape_offset(const WorldState& world, const ShapeRecord& shape) {
-    if (shape.offset == Vec3{}) return {};
-    return rotate(world.motions[shape.body].rotation, shape.offset);
+    if (shape.seat == nothing) return {};
+    const Vec3 offset = world.seats[shape.seat].offset;
+    return offset == Vec3{} ? Vec3{} : rotate(world.motions[shape.body].rotation, offset);
 }
 
 Quat shape_rotation(const WorldState& world, const ShapeRecord& shape) {
     const Quat rotation = world.motions[shape.body].rotation;
-    return shape.is_turned ? rotation * shape.def.local_pose.rotation : rotation;
+    if (shape.seat == nothing) return rotation;
+    const ShapeSeat& seat = world.seats[shape.seat];
+    return seat.is_turned ? rotation * seat.local_pose.rotation : rotation;
 }
 
 // How far a shape's points may travel in dt seconds, beyond the smooth path of its center of mass.
@@ -54,12 +57,11 @@ float fall_in(const WorldState& world, float dt) {
 }
 
 // An arm that ends at a point of the shape, along its own axes from its origin.
-Arm make_arm(const ShapeRecord& shape, Vec3 point) {
-    return {shape.offset + (shape.is_turned ? rotate(shape.def.local_pose.rotation, point) : point),
-            {}};
+Arm make_arm(const ShapeSeat& seat, Vec3 point) {
+    return {seat.offset + (seat.is_turned ? rotate(seat.local_pose.rotation, point) : point), {}};
 }
 // To a point of a round shape, world axes: the touching point stays below the center.
-Arm make_round_arm(const ShapeRecord& shape, Vec3 point) { return {shape.offset, point}; }
+Arm make_round_arm(const ShapeSeat& seat, Vec3 point) { return {seat.offset, point}; }
 
 BodyPlace place_of(const WorldState& world, std::uint32_t body) {
     return {world.positions[body], world.motions[body].rotation};
@@ -113,8 +115,8 @@ Axis find_axis_within(const Geometry& a, const Geometry& b, const Pose& b_in_a, 
 Aabb find_box(const WorldState& world, const ShapeRecord& shape, bool moves, float h) {
     const Quat rotation = shape_rotation(world, shape);
     const Position center = world.positions[shape.body] + shape_offset(world, shape);
-    Vec3 half = bounds_half_extents(shape.def.geometry, to_matrix(rotation));
-    if (!is_plane(shape.def.geometry)) {
+    Vec3 half = bounds_half_extents(shape.geometry, to_matrix(rotation));
+    if (!is_plane(shape.geometry)) {
         float margin = skin_share * shape.size;
         if (moves) {
             const float speed = length(world.motions[shape.body].linear_velocity);
@@ -285,7 +287,7 @@ void find_step_pairs(WorldState& world, Team& team, double dt, LargeArray<Pair>&
     proxies.clear();
     for (std::uint32_t slot = 0; slot < world.shapes.size(); ++slot) {
         const ShapeRecord& shape = world.shapes[slot];
-        if (shape.alive)
+        if (shape.is_alive())
             proxies.push_back({world.boxes[slot], slot, is_looked_at(world, shape.body)});
     }
     world.scratch.broad.find_pairs(proxies, pairs);
@@ -296,7 +298,7 @@ void find_present_pairs(const WorldState& world, double dt, LargeArray<Pair>& pa
     std::vector<Proxy> proxies;
     for (std::uint32_t slot = 0; slot < world.shapes.size(); ++slot) {
         const ShapeRecord& shape = world.shapes[slot];
-        if (!shape.alive) continue;
+        if (!shape.is_alive()) continue;
         const bool moves = can_move(world, shape.body);
         proxies.push_back({find_box(world, shape, moves, float(dt)), slot, moves});
     }
@@ -345,8 +347,8 @@ void remember_apart(const WorldState& world, PairRecord& pair, float separation)
 void describe_contact(const WorldState& world, Contact& contact) {
     const ShapeRecord& a = world.shapes[contact.shape_a];
     const ShapeRecord& b = world.shapes[contact.shape_b];
-    const Material& material_a = a.def.material;
-    const Material& material_b = b.def.material;
+    const Material& material_a = material_of(world, a);
+    const Material& material_b = material_of(world, b);
     contact.body_a = a.body;
     contact.body_b = b.body;
     contact.friction = square_root(material_a.friction * material_b.friction);
@@ -358,15 +360,15 @@ void describe_contact(const WorldState& world, Contact& contact) {
     contact.surface_velocity = {};
     turn_surface_velocity(world, contact);
     contact.size = pair_size(a, b);
-    const bool round_a = is_round(a.def.geometry);
-    const bool round_b = is_round(b.def.geometry);
+    const bool round_a = is_round(a.geometry);
+    const bool round_b = is_round(b.geometry);
     contact.stays_with_a = round_a != round_b ? round_a : a.size < b.size;
 }
 
 void turn_surface_velocity(const WorldState& world, Contact& contact) {
     if (!contact.conveys) return;
-    const Vec3 on_a = world.shapes[contact.shape_a].def.material.surface_velocity;
-    const Vec3 on_b = world.shapes[contact.shape_b].def.material.surface_velocity;
+    const Vec3 on_a = material_of(world, world.shapes[contact.shape_a]).surface_velocity;
+    const Vec3 on_b = material_of(world, world.shapes[contact.shape_b]).surface_velocity;
     contact.surface_velocity = rotate(world.motions[contact.body_b].rotation, on_b) -
                                rotate(world.motions[contact.body_a].rotation, on_a);
 }
@@ -383,8 +385,8 @@ bool find_meeting(const WorldState& world, std::uint32_t shape_a, std::uint32_t 
     if (!is_finite(meeting.b_in_a.position)) return false;
     const Reach reach = find_reach(world, a, b, meeting.rotation_a, dt);
     meeting.axis =
-        find_axis_within(a.def.geometry, b.def.geometry, meeting.b_in_a,
-                         world.settings.step.narrow_phase, exactly ? everywhere : reach, hint);
+        find_axis_within(a.geometry, b.geometry, meeting.b_in_a, world.settings.step.narrow_phase,
+                         exactly ? everywhere : reach, hint);
     meeting.hint = hint;
     if (!is_finite(meeting.axis.normal) || !is_finite(meeting.axis.separation)) return false;
     meeting.within = reach.along(meeting.axis.normal);
@@ -395,9 +397,10 @@ void build_contact_points(const WorldState& world, const Meeting& meeting, float
                           Contact& contact) {
     const ShapeRecord& a = world.shapes[contact.shape_a];
     const ShapeRecord& b = world.shapes[contact.shape_b];
-    const bool round_a = is_round(a.def.geometry), round_b = is_round(b.def.geometry);
-    const Manifold manifold = build_manifold(a.def.geometry, b.def.geometry, meeting.b_in_a,
-                                             meeting.axis, max_separation);
+    const bool round_a = is_round(a.geometry), round_b = is_round(b.geometry);
+    const ShapeSeat seat_a = seat_of(world, a), seat_b = seat_of(world, b);
+    const Manifold manifold =
+        build_manifold(a.geometry, b.geometry, meeting.b_in_a, meeting.axis, max_separation);
     // B's arm goes by way of the world, so that both end at the same place there to the last digit:
     // what a turn between the two frames rounds away moves a house of cards.
     const Mat3 axes_a = to_matrix(meeting.rotation_a);
@@ -411,9 +414,10 @@ void build_contact_points(const WorldState& world, const Meeting& meeting, float
         ContactPoint& point = contact.points[std::size_t(contact.point_count++)];
         point = {};
         const Vec3 from_b = axes_a * from.from_b;
-        point.arm_a = round_a ? make_round_arm(a, axes_a * from.from_a) : make_arm(a, from.from_a);
-        point.arm_b =
-            round_b ? make_round_arm(b, from_b) : make_arm(b, multiply_transposed(axes_b, from_b));
+        point.arm_a =
+            round_a ? make_round_arm(seat_a, axes_a * from.from_a) : make_arm(seat_a, from.from_a);
+        point.arm_b = round_b ? make_round_arm(seat_b, from_b)
+                              : make_arm(seat_b, multiply_transposed(axes_b, from_b));
         point.separation = from.separation;
         point.feature = from.feature;
     }
@@ -442,8 +446,8 @@ bool follow_contact(WorldState& world, const PairRecord& pair) {
 void remember_contact(WorldState& world, PairRecord& pair, const Meeting& meeting) {
     pair.shows_face = false;
     const Contact& contact = world.contacts[pair.contact];
-    const Geometry& a = world.shapes[pair.shape_a].def.geometry;
-    const Geometry& b = world.shapes[pair.shape_b].def.geometry;
+    const Geometry& a = world.shapes[pair.shape_a].geometry;
+    const Geometry& b = world.shapes[pair.shape_b].geometry;
     // A round shape's answer is had for less than it takes to follow it.
     if (is_round(a) || is_round(b)) return;
     const auto kind = BoxAxisKind(meeting.hint.kind);

@@ -56,9 +56,12 @@ Status World::set_material(ShapeId id, const Material& material) {
     if (!names(*state_, id)) return tell(*state_, stale("set_material", "shape"));
     if (const Refusal r = check_material("material", material))
         return tell(*state_, "set_material", *r);
-    if (state_->shapes[id.index].def.material == material) return Done{};
-    state_->shapes[id.index].def.material = material;
-    note_change(*state_, state_->shapes[id.index].body);
+    ShapeRecord& shape = state_->shapes[id.index];
+    if (material_of(*state_, shape) == material) return Done{};
+    const float density = state_->substances[shape.substance].density;
+    state_->substances.give_back(shape.substance);
+    shape.substance = state_->substances.take({material, density});
+    note_change(*state_, shape.body);
     state_->contacts.list_returned();
     for (const PairRecord& pair : state_->contacts.pairs()) {
         if (pair.contact == ContactStore::none) continue;

@@ -46,8 +46,34 @@ Result<MassProperties> resolve_mass(const BodyRecord& body, BodyKind kind,
 
 std::vector<ShapeDef> shape_defs(const WorldState& world, std::uint32_t body) {
     std::vector<ShapeDef> defs;
-    visit_shapes(world, body, [&](std::uint32_t slot) { defs.push_back(world.shapes[slot].def); });
+    visit_shapes(world, body, [&](std::uint32_t slot) { defs.push_back(shape_def(world, slot)); });
     return defs;
+}
+
+std::uint32_t take_slot(LargeArray<std::uint32_t>& free, std::size_t size) {
+    if (free.empty()) return std::uint32_t(size);
+    const std::uint32_t slot = free.back();
+    free.pop_back();
+    return slot;
+}
+
+void leave_seat(WorldState& world, ShapeRecord& shape) {
+    if (shape.seat == nothing) return;
+    world.free_seats.push_back(shape.seat);
+    shape.seat = nothing;
+}
+
+// Where the shape is on its body.
+void seat_shape(WorldState& world, ShapeRecord& shape, const Pose& local_pose,
+                Vec3 center_of_mass) {
+    if (local_pose == Pose{} && center_of_mass == Vec3{}) return leave_seat(world, shape);
+    if (shape.seat == nothing) {
+        shape.seat = take_slot(world.free_seats, world.seats.size());
+        if (shape.seat == world.seats.size()) world.seats.emplace_back();
+    }
+    world.seats[shape.seat] = {.local_pose = local_pose,
+                               .offset = local_pose.position - center_of_mass,
+                               .is_turned = local_pose.rotation != Quat{}};
 }
 
 // Gives the body its mass properties; its origin stays where it is, its points keep their
@@ -64,32 +90,25 @@ void assign_mass(WorldState& world, std::uint32_t slot, const MassProperties& pr
     float& reach = world.ways[slot].reach = 0;
     visit_shapes(world, slot, [&](std::uint32_t s) {
         ShapeRecord& shape = world.shapes[s];
-        shape.offset = shape.def.local_pose.position - properties.center_of_mass;
-        shape.reach = length(shape.offset) + bounding_radius(shape.def.geometry);
+        seat_shape(world, shape, seat_of(world, shape).local_pose, properties.center_of_mass);
+        shape.reach = length(seat_of(world, shape).offset) + bounding_radius(shape.geometry);
         reach = max(reach, shape.reach);
     });
     measure_extent(world, slot);
-}
-
-std::uint32_t take_slot(LargeArray<std::uint32_t>& free, std::size_t size) {
-    if (free.empty()) return std::uint32_t(size);
-    const std::uint32_t slot = free.back();
-    free.pop_back();
-    return slot;
 }
 
 std::uint32_t add_shape(WorldState& world, std::uint32_t body, const ShapeDef& def) {
     const std::uint32_t slot = take_slot(world.free_shapes, world.shapes.size());
     if (slot == world.shapes.size()) world.shapes.emplace_back();
     ShapeRecord& shape = world.shapes[slot];
-    shape.alive = true;
     shape.body = body;
-    shape.def = def;
-    shape.def.local_pose.rotation = normalize(def.local_pose.rotation);
-    shape.is_turned = shape.def.local_pose.rotation != Quat{};
-    if (auto* plane = std::get_if<Plane>(&shape.def.geometry))
+    shape.geometry = def.geometry;
+    if (auto* plane = std::get_if<Plane>(&shape.geometry))
         plane->normal = normalize_or(plane->normal, {0, 1, 0});
-    shape.size = smallest_half_extent(shape.def.geometry);
+    shape.substance = world.substances.take({def.material, def.density});
+    seat_shape(world, shape, {def.local_pose.position, normalize(def.local_pose.rotation)},
+               center_of_mass(world, body));
+    shape.size = smallest_half_extent(shape.geometry);
     BodyRecord& owner = world.bodies[body];
     shape.previous = owner.last_shape;
     shape.next = nothing;
@@ -105,8 +124,11 @@ void remove_shape(WorldState& world, std::uint32_t slot) {
         shape.next;
     (shape.next == nothing ? owner.last_shape : world.shapes[shape.next].previous) = shape.previous;
     world.tree.remove(slot);
-    shape.alive = false;
-    ++shape.generation;
+    world.substances.give_back(shape.substance);
+    leave_seat(world, shape);
+    const std::uint32_t generation = shape.generation + 1;
+    shape = {};
+    shape.generation = generation;
     world.free_shapes.push_back(slot);
 }
 
@@ -288,7 +310,7 @@ Status World::destroy_shape(ShapeId id) {
     BodyRecord& body = world.bodies[slot];
     std::vector<ShapeDef> defs;
     visit_shapes(world, slot, [&](std::uint32_t s) {
-        if (s != id.index) defs.push_back(world.shapes[s].def);
+        if (s != id.index) defs.push_back(shape_def(world, s));
     });
     const Result<MassProperties> mass = resolve_mass(body, world.drives[slot].kind, defs);
     if (!mass) return tell(world, "destroy_shape", mass.error());
@@ -326,7 +348,7 @@ std::vector<ShapeId> World::shapes(BodyId id) const {
 }
 
 ShapeDef World::shape(ShapeId id) const {
-    if (names(*state_, id)) return state_->shapes[id.index].def;
+    if (names(*state_, id)) return shape_def(*state_, id.index);
     tell(*state_, stale("shape", "shape"));
     return {};
 }

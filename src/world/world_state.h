@@ -10,6 +10,7 @@
 
 #include "base/large_array.h"
 #include "base/scheduler.h"
+#include "base/shared_values.h"
 #include "base/stage_trace.h"
 #include "broad/brute_force.h"
 #include "broad/tree_pairs.h"
@@ -47,14 +48,28 @@ struct UserForces {
 
 struct ShapeRecord {
     std::uint32_t generation = 0;
-    bool alive = false;
-    std::uint32_t body = 0;
+    std::uint32_t body = nothing;                      // nothing: there is no such shape
     std::uint32_t next = nothing, previous = nothing;  // of the same body
-    ShapeDef def;
+    Geometry geometry;
+    std::uint32_t substance = nothing;  // its number among the world's
+    std::uint32_t seat = nothing;       // its place among the seats, unless its frame is its body's
+    float size = 0;                     // smallest half extent
+    float reach = 0;  // largest distance of a point from the body's center of mass
+
+    bool is_alive() const { return body != nothing; }
+};
+
+// What a shape is made of: most are made of the same.
+struct Substance {
+    Material material;
+    float density = 0;
+};
+
+// Where a shape sits that is not in the middle of its body.
+struct ShapeSeat {
+    Pose local_pose;
     Vec3 offset;             // of its origin from the body's center of mass, body frame
     bool is_turned = false;  // its axes are not the body's
-    float size = 0;          // smallest half extent
-    float reach = 0;         // largest distance of a point from the body's center of mass
 };
 
 // How far a body's points have gone at most, m: what two shapes that were apart have left to go.
@@ -101,6 +116,9 @@ struct WorldState {
 
     LargeArray<ShapeRecord> shapes;  // by shape slot
     LargeArray<std::uint32_t> free_shapes;
+    SharedValues<Substance> substances;
+    LargeArray<ShapeSeat> seats;
+    LargeArray<std::uint32_t> free_seats;
 
     // By shape slot: a box that holds the shape throughout the step, as of the last step that
     // looked at it.
@@ -148,6 +166,20 @@ inline BodyId body_id(const WorldState& world, std::uint32_t slot) {
 }
 inline ShapeId shape_id(const WorldState& world, std::uint32_t slot) {
     return {slot, world.shapes[slot].generation};
+}
+
+inline const Material& material_of(const WorldState& world, const ShapeRecord& shape) {
+    return world.substances[shape.substance].material;
+}
+inline ShapeSeat seat_of(const WorldState& world, const ShapeRecord& shape) {
+    return shape.seat == nothing ? ShapeSeat{} : world.seats[shape.seat];
+}
+inline ShapeDef shape_def(const WorldState& world, std::uint32_t slot) {
+    const ShapeRecord& shape = world.shapes[slot];
+    return {.geometry = shape.geometry,
+            .local_pose = seat_of(world, shape).local_pose,
+            .density = world.substances[shape.substance].density,
+            .material = material_of(world, shape)};
 }
 
 // visit(slot) for each shape of the body; it may remove the one that it is given.
