@@ -50,6 +50,16 @@ void advise(void* pages, const Extent& extent) {
 #endif
 }
 
+// The heap keeps what is given back to it, and a world of a million bodies would keep as much
+// again as it needs: what its arrays lay in while they grew. Their addresses stay the heap's.
+void empty(void* pages, const Extent& extent) {
+#if defined(__linux__)
+    if (extent.large_bytes() > 0) (void)madvise(pages, extent.bytes, MADV_DONTNEED);
+#else
+    (void)pages, (void)extent;
+#endif
+}
+
 }  // namespace
 
 void* take_pages(std::size_t bytes, std::size_t alignment) {
@@ -61,6 +71,7 @@ void* take_pages(std::size_t bytes, std::size_t alignment) {
 
 void give_pages_back(void* pages, std::size_t bytes, std::size_t alignment) {
     const Extent extent(bytes, alignment);
+    empty(pages, extent);
     ::operator delete(pages, std::align_val_t(extent.alignment));
 }
 

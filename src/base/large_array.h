@@ -36,4 +36,15 @@ struct LargePages {
 template <class Element>
 using LargeArray = std::vector<Element, LargePages<Element>>;
 
+// Empties a list, and gives its memory back if it is as long as lists are only once, when a world
+// is built.
+template <class Element>
+void forget(LargeArray<Element>& list) {
+    constexpr std::size_t many = 100000;
+    if (list.size() > many)
+        LargeArray<Element>().swap(list);
+    else
+        list.clear();
+}
+
 }  // namespace cairn

@@ -205,7 +205,7 @@ void TreePairs::finish_search(LargeArray<Pair>& pairs) {
     }
     searches_.clear();
     for (const std::uint32_t id : marked_) states_[id] &= std::uint8_t(~marked);
-    marked_.clear();
+    forget(marked_);
 }
 
 void TreePairs::find_new_pairs(LargeArray<Pair>& pairs) {
