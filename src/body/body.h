@@ -30,7 +30,6 @@ struct BodyInertia {
 
 // What drives a body through one step: constant while the step lasts.
 struct BodyDrive {
-    BodyKind kind = BodyKind::Static;
     bool gyroscopic = true;
     LockedAxes lock = {};
     Vec3 force =
@@ -39,6 +38,8 @@ struct BodyDrive {
     float gravity_scale = 1;
     float linear_damping = 0;
     float angular_damping = 0;
+
+    friend bool operator==(const BodyDrive&, const BodyDrive&) = default;
 };
 
 BodyInertia make_inertia(const MassProperties& properties);

@@ -18,16 +18,16 @@
 namespace cairn {
 
 struct StepProblem {
-    std::span<BodyMotion> motions;
-    std::span<const BodyInertia> inertias;
-    std::span<const BodyDrive> drives;
+    std::span<BodyMotion> motions = {};
+    std::span<const BodyInertia> inertias = {};
+    std::span<const BodyDrive> drives = {};
     // Of the centers of mass against gravity when the step began, m.
-    std::span<const float> heights;
+    std::span<const float> heights = {};
     // Kinematic and dynamic bodies, ascending.
-    std::span<const std::uint32_t> moving;
+    std::span<const std::uint32_t> moving = {};
     std::span<Contact> contacts;
     // The contacts with points, in ascending order of their keys.
-    std::span<const std::uint32_t> active;
+    std::span<const std::uint32_t> active = {};
 
     Vec3 gravity;
     double dt = 0;

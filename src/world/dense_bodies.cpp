@@ -10,9 +10,9 @@ namespace cairn {
 void DenseBodies::add(const WorldState& world, std::uint32_t body) {
     places_[body] = std::uint32_t(slots_.size());
     slots_.push_back(body);
-    motions_.push_back(world.motions[body]);
-    inertias_.push_back(world.inertias[body]);
-    drives_.push_back(world.drives[body]);
+    motions_.push_back(motion_of(world, body));
+    inertias_.push_back(inertia_of(world, body));
+    drives_.push_back(drive_of(world, body));
     // An order alone, so that binary32 is enough.
     const Position& p = world.positions[body];
     heights_.push_back(float(double(up_.x) * p.x + double(up_.y) * p.y + double(up_.z) * p.z));
@@ -20,7 +20,7 @@ void DenseBodies::add(const WorldState& world, std::uint32_t body) {
 
 std::uint32_t DenseBodies::place_guest(const WorldState& world, std::uint32_t body) {
     if (is_listed(body)) return places_[body];
-    if (world.drives[body].kind == BodyKind::Kinematic)
+    if (world.bodies[body].kind == BodyKind::Kinematic)
         moving_.push_back(std::uint32_t(slots_.size()));
     add(world, body);
     return places_[body];
@@ -55,7 +55,7 @@ void DenseBodies::gather(WorldState& world, const StepGroup& group, StepProblem&
 void DenseBodies::scatter(WorldState& world, const StepGroup& group) const {
     // The group's own bodies came first.
     for (std::size_t i = 0; i < group.moving.size(); ++i)
-        world.motions[group.moving[i]] = motions_[i];
+        set_motion(world, group.moving[i], motions_[i]);
     visit_contacts(world.contacts.slots(), group.active, 0, [&](Contact& contact, std::size_t) {
         contact.body_a = slots_[contact.body_a];
         contact.body_b = slots_[contact.body_b];

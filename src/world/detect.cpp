@@ -34,11 +34,11 @@ bool is_plane(const Geometry& geometry) { return std::holds_alternative<Plane>(g
 Vec3 shape_offset(const WorldState& world, const ShapeRecord& shape) {
     if (shape.seat == nothing) return {};
     const Vec3 offset = world.seats[shape.seat].offset;
-    return offset == Vec3{} ? Vec3{} : rotate(world.motions[shape.body].rotation, offset);
+    return offset == Vec3{} ? Vec3{} : rotate(world.rotations[shape.body], offset);
 }
 
 Quat shape_rotation(const WorldState& world, const ShapeRecord& shape) {
-    const Quat rotation = world.motions[shape.body].rotation;
+    const Quat rotation = world.rotations[shape.body];
     if (shape.seat == nothing) return rotation;
     const ShapeSeat& seat = world.seats[shape.seat];
     return seat.is_turned ? rotation * seat.local_pose.rotation : rotation;
@@ -46,10 +46,10 @@ Quat shape_rotation(const WorldState& world, const ShapeRecord& shape) {
 
 // How far a shape's points may travel in dt seconds, beyond the smooth path of its center of mass.
 float turning_reach(const WorldState& world, const ShapeRecord& shape, float dt) {
-    const BodyMotion& motion = world.motions[shape.body];
-    if (motion.angular_velocity == Vec3{}) return 0;
+    const Vec3 spin = travel_of(world, shape.body).angular_velocity;
+    if (spin == Vec3{}) return 0;
     // Turning by an angle moves no point by more than twice its arm.
-    return min(dt * length(motion.angular_velocity), 2.0f) * shape.reach;
+    return min(dt * length(spin), 2.0f) * shape.reach;
 }
 
 float fall_in(const WorldState& world, float dt) {
@@ -64,7 +64,7 @@ Arm make_arm(const ShapeSeat& seat, Vec3 point) {
 Arm make_round_arm(const ShapeSeat& seat, Vec3 point) { return {seat.offset, point}; }
 
 BodyPlace place_of(const WorldState& world, std::uint32_t body) {
-    return {world.positions[body], world.motions[body].rotation};
+    return {world.positions[body], world.rotations[body]};
 }
 
 float pair_size(const ShapeRecord& a, const ShapeRecord& b) { return min(a.size, b.size); }
@@ -72,19 +72,20 @@ float pair_size(const ShapeRecord& a, const ShapeRecord& b) { return min(a.size,
 // How far two bodies' points may have come towards each other when this step is over, beyond what
 // they had when it was least: the ways that both have gone, and what is before them.
 double gone_together(const WorldState& world, const PairRecord& pair) {
-    return world.ways[world.shapes[pair.shape_a].body].gone +
-           world.ways[world.shapes[pair.shape_b].body].gone;
+    return way_of(world, world.shapes[pair.shape_a].body).gone +
+           way_of(world, world.shapes[pair.shape_b].body).gone;
 }
 double horizon_together(const WorldState& world, const PairRecord& pair) {
-    return world.ways[world.shapes[pair.shape_a].body].horizon +
-           world.ways[world.shapes[pair.shape_b].body].horizon;
+    return way_of(world, world.shapes[pair.shape_a].body).horizon +
+           way_of(world, world.shapes[pair.shape_b].body).horizon;
 }
 
 bool may_touch(const WorldState& world, const Pair& pair) {
     const std::uint32_t a = world.shapes[pair.a].body;
     const std::uint32_t b = world.shapes[pair.b].body;
     // Kinematic bodies have nothing to say to what cannot move either.
-    const bool can_push = world.inertias[a].inverse_mass > 0 || world.inertias[b].inverse_mass > 0;
+    const bool can_push =
+        inertia_of(world, a).inverse_mass > 0 || inertia_of(world, b).inverse_mass > 0;
     return a != b && can_push && agree(world.bodies[a].filter, world.bodies[b].filter);
 }
 
@@ -94,7 +95,8 @@ bool may_touch(const WorldState& world, const Pair& pair) {
 Reach find_reach(const WorldState& world, const ShapeRecord& a, const ShapeRecord& b,
                  Quat rotation_a, double dt) {
     const auto h = float(dt);
-    const Vec3 v = world.motions[b.body].linear_velocity - world.motions[a.body].linear_velocity;
+    const Vec3 v =
+        travel_of(world, b.body).linear_velocity - travel_of(world, a.body).linear_velocity;
     return {skin_share * pair_size(a, b) + fall_in(world, h) + turning_reach(world, a, h) +
                 turning_reach(world, b, h),
             rotate_inverse(rotation_a, h * v)};
@@ -119,7 +121,7 @@ Aabb find_box(const WorldState& world, const ShapeRecord& shape, bool moves, flo
     if (!is_plane(shape.geometry)) {
         float margin = skin_share * shape.size;
         if (moves) {
-            const float speed = length(world.motions[shape.body].linear_velocity);
+            const float speed = length(travel_of(world, shape.body).linear_velocity);
             margin += h * speed + turning_reach(world, shape, h) + fall_in(world, h);
         }
         half = half + Vec3{margin, margin, margin};
@@ -129,7 +131,7 @@ Aabb find_box(const WorldState& world, const ShapeRecord& shape, bool moves, flo
 
 // Whether anything short of a change by the user can move the body.
 bool can_move(const WorldState& world, std::uint32_t body) {
-    return world.drives[body].kind != BodyKind::Static && !world.bodies[body].frozen;
+    return world.bodies[body].kind != BodyKind::Static && !world.bodies[body].frozen;
 }
 
 // Shapes, bodies and pairs are shared out in blocks of so many: some microseconds' work.
@@ -138,13 +140,11 @@ constexpr int bodies_a_block = 128;
 constexpr int searches_a_block = 16;
 constexpr std::size_t pairs_a_block = 256;
 
-constexpr std::size_t many_shapes = 100000;
-
 // The box with room for some steps more.
 Aabb fatten(const WorldState& world, const ShapeRecord& shape, const Aabb& box, bool moves,
             float h) {
     if (!moves) return box;
-    const float speed = length(world.motions[shape.body].linear_velocity);
+    const float speed = length(travel_of(world, shape.body).linear_velocity);
     const float room = fat_share * shape.size + h * speed;
     const Vec3 margin = {room, room, room};
     return {box.lower - margin, box.upper + margin};
@@ -199,12 +199,16 @@ void update_boxes(WorldState& world, Team& team, float h) {
             if (escaped[i] != 0) update_tree(world, updated[i], h);
         }
         world.tree.insert_many(world.scratch.new_proxies);
-        // A world comes once with so many.
-        if (world.scratch.new_proxies.size() > many_shapes) world.scratch.new_proxies = {};
+        // As long as the lists of boxes were, they are long again only where most move.
+        if (world.scratch.new_proxies.size() > world.rest.movers.size()) {
+            forget(updated);
+            forget(escaped);
+        }
+        forget(world.scratch.new_proxies);
         for (const std::uint32_t body : stale)
             visit_shapes(world, body, [&](std::uint32_t slot) { world.tree.look_up(slot); });
     }
-    stale.clear();
+    forget(stale);
 }
 
 bool is_idle(const WorldState& world, const Pair& pair) {
@@ -308,8 +312,8 @@ void find_present_pairs(const WorldState& world, double dt, LargeArray<Pair>& pa
 }
 
 void add_to_way(WorldState& world, std::uint32_t body, Quat before) {
-    BodyWay& way = world.ways[body];
-    const BodyMotion& motion = world.motions[body];
+    BodyWay& way = world.ways[world.bodies[body].mobile];
+    const BodyMotion motion = motion_of(world, body);
     if (motion.displacement != Vec3{}) way.gone += double(length(motion.displacement));
     if (motion.rotation == before) return;
     // A turn moves a point by the chord over its arm.
@@ -322,11 +326,11 @@ void look_ahead(WorldState& world, Team& team, double dt) {
     const auto& moving = world.scratch.moving;
     team.for_range(int(moving.size()), bodies_a_block, [&](int begin, int end, int) {
         for (auto i = std::size_t(begin); i < std::size_t(end); ++i) {
-            BodyWay& way = world.ways[moving[i]];
-            const BodyMotion& motion = world.motions[moving[i]];
-            way.horizon = way.gone + double(h * length(motion.linear_velocity) + fall);
-            if (motion.angular_velocity != Vec3{})
-                way.horizon += double(min(h * length(motion.angular_velocity), 2.0f) * way.reach);
+            BodyWay& way = world.ways[world.bodies[moving[i]].mobile];
+            const BodyTravel& travel = travel_of(world, moving[i]);
+            way.horizon = way.gone + double(h * length(travel.linear_velocity) + fall);
+            if (travel.angular_velocity != Vec3{})
+                way.horizon += double(min(h * length(travel.angular_velocity), 2.0f) * way.reach);
         }
     });
 }
@@ -369,8 +373,8 @@ void turn_surface_velocity(const WorldState& world, Contact& contact) {
     if (!contact.conveys) return;
     const Vec3 on_a = material_of(world, world.shapes[contact.shape_a]).surface_velocity;
     const Vec3 on_b = material_of(world, world.shapes[contact.shape_b]).surface_velocity;
-    contact.surface_velocity = rotate(world.motions[contact.body_b].rotation, on_b) -
-                               rotate(world.motions[contact.body_a].rotation, on_a);
+    contact.surface_velocity = rotate(world.rotations[contact.body_b], on_b) -
+                               rotate(world.rotations[contact.body_a], on_a);
 }
 
 bool find_meeting(const WorldState& world, std::uint32_t shape_a, std::uint32_t shape_b, double dt,

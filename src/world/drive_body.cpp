@@ -13,8 +13,8 @@ Status World::set_gravity_scale(BodyId id, float scale) {
     if (!names(*state_, id)) return tell(*state_, stale("set_gravity_scale", "body"));
     if (const Refusal r = check_finite("scale", double(scale)))
         return tell(*state_, "set_gravity_scale", *r);
-    if (state_->drives[id.index].gravity_scale == scale) return Done{};
-    state_->drives[id.index].gravity_scale = scale;
+    if (drive_of(*state_, id.index).gravity_scale == scale) return Done{};
+    state_->drives[make_mobile(*state_, id.index)].gravity_scale = scale;
     wake(*state_, id.index);
     return Done{};
 }
@@ -25,21 +25,22 @@ Status World::set_damping(BodyId id, float linear, float angular) {
         return tell(*state_, "set_damping", *r);
     if (const Refusal r = check_at_least("angular", double(angular), 0))
         return tell(*state_, "set_damping", *r);
-    state_->drives[id.index].linear_damping = linear;
-    state_->drives[id.index].angular_damping = angular;
+    BodyDrive& drive = state_->drives[make_mobile(*state_, id.index)];
+    drive.linear_damping = linear;
+    drive.angular_damping = angular;
     return Done{};
 }
 
 Status World::set_gyroscopic(BodyId id, bool on) {
     if (!names(*state_, id)) return tell(*state_, stale("set_gyroscopic", "body"));
-    state_->drives[id.index].gyroscopic = on;
+    state_->drives[make_mobile(*state_, id.index)].gyroscopic = on;
     return Done{};
 }
 
 Status World::set_locked_axes(BodyId id, const LockedAxes& lock) {
     if (!names(*state_, id)) return tell(*state_, stale("set_locked_axes", "body"));
-    if (state_->drives[id.index].lock == lock) return Done{};
-    state_->drives[id.index].lock = lock;
+    if (drive_of(*state_, id.index).lock == lock) return Done{};
+    state_->drives[make_mobile(*state_, id.index)].lock = lock;
     wake(*state_, id.index);
     return Done{};
 }
@@ -142,10 +143,12 @@ namespace {
 void push(WorldState& world, std::uint32_t slot, Vec3 linear, Vec3 angular) {
     const FloatEnvironment ieee;
     if (linear != Vec3{} || angular != Vec3{}) wake(world, slot);
+    const std::uint32_t mobile = world.bodies[slot].mobile;
+    if (mobile == scenery) return;
     const Response response =
-        find_response(world.inertias[slot], world.drives[slot], world.motions[slot].rotation);
-    world.motions[slot].linear_velocity += multiply(response.inverse_mass, linear);
-    world.motions[slot].angular_velocity += response.inverse_inertia * angular;
+        find_response(world.inertias[mobile], world.drives[mobile], world.rotations[slot]);
+    world.travels[mobile].linear_velocity += multiply(response.inverse_mass, linear);
+    world.travels[mobile].angular_velocity += response.inverse_inertia * angular;
 }
 
 }  // namespace

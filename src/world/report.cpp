@@ -71,8 +71,8 @@ ContactReport describe(const WorldState& world, const Contact& contact, float wi
         const ContactPoint& from = contact.points[std::size_t(i)];
         if (from.separation > within && from.normal_impulse == 0) continue;
         ContactPointReport& to = report.points[std::size_t(report.point_count++)];
-        to.position = world.positions[contact.body_b] +
-                      find_arm(from.arm_b, world.motions[contact.body_b].rotation);
+        to.position =
+            world.positions[contact.body_b] + find_arm(from.arm_b, world.rotations[contact.body_b]);
         to.separation = from.separation;
         to.normal_impulse = from.normal_impulse;
         to.feature = from.feature;
@@ -143,10 +143,10 @@ Energy World::energy() const {
     const WorldState& world = *state_;
     Energy energy;
     const Vec3 g = world.settings.gravity;
-    for (std::size_t slot = 0; slot < world.bodies.size(); ++slot) {
-        const BodyInertia& inertia = world.inertias[slot];
+    for (std::uint32_t slot = 0; slot < world.bodies.size(); ++slot) {
+        const BodyInertia& inertia = inertia_of(world, slot);
         if (inertia.mass == 0) continue;
-        const BodyMotion& motion = world.motions[slot];
+        const BodyMotion motion = motion_of(world, slot);
         const Vec3 v = motion.linear_velocity;
         const Vec3 w = rotate_inverse(motion.rotation, motion.angular_velocity);
         const Position& x = world.positions[slot];
@@ -158,7 +158,7 @@ Energy World::energy() const {
         energy.kinetic +=
             0.5 * (double(w.x) * double(momentum.x) + double(w.y) * double(momentum.y) +
                    double(w.z) * double(momentum.z));
-        energy.potential -= mass * double(world.drives[slot].gravity_scale) *
+        energy.potential -= mass * double(drive_of(world, slot).gravity_scale) *
                             (double(g.x) * x.x + double(g.y) * x.y + double(g.z) * x.z);
     }
     energy.total = energy.kinetic + energy.potential;
@@ -169,10 +169,10 @@ Momentum World::momentum() const {
     const FloatEnvironment ieee;
     const WorldState& world = *state_;
     Momentum momentum;
-    for (std::size_t slot = 0; slot < world.bodies.size(); ++slot) {
-        const BodyInertia& inertia = world.inertias[slot];
+    for (std::uint32_t slot = 0; slot < world.bodies.size(); ++slot) {
+        const BodyInertia& inertia = inertia_of(world, slot);
         if (inertia.mass == 0) continue;
-        const BodyMotion& motion = world.motions[slot];
+        const BodyMotion motion = motion_of(world, slot);
         const Position& x = world.positions[slot];
         const double px = double(inertia.mass) * double(motion.linear_velocity.x);
         const double py = double(inertia.mass) * double(motion.linear_velocity.y);
@@ -223,7 +223,7 @@ std::uint64_t World::state_hash() const {
     Fnv1a hash;
     for (std::uint32_t slot = 0; slot < world.bodies.size(); ++slot) {
         if (!world.bodies[slot].alive) continue;
-        const BodyMotion& motion = world.motions[slot];
+        const BodyMotion motion = motion_of(world, slot);
         const Position position = origin_position(world, slot);
         hash.add(position.x);
         hash.add(position.y);

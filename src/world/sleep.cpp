@@ -26,9 +26,10 @@ void stop_moving(WorldState& world, std::uint32_t body) {
     if (!moves(world, body)) return;
     world.rest.states[body] &= std::uint8_t(~RestState::is_moving);
     world.rest.any_stopped = world.rest.any_idle = true;
-    world.motions[body].displacement = {};
+    const std::uint32_t mobile = world.bodies[body].mobile;
+    world.travels[mobile].displacement = {};
     world.rest.stale.push_back(body);
-    world.ways[body].horizon = world.ways[body].gone;
+    world.ways[mobile].horizon = world.ways[mobile].gone;
 }
 
 Sleeper& sleeper_of(WorldState& world, std::uint32_t body) {
@@ -36,7 +37,7 @@ Sleeper& sleeper_of(WorldState& world, std::uint32_t body) {
 }
 
 void watch_anew(WorldState& world, std::uint32_t body) {
-    stir(sleeper_of(world, body).stillness, world.motions[body].rotation);
+    stir(sleeper_of(world, body).stillness, world.rotations[body]);
 }
 
 std::uint32_t other_body(const Contact& contact, std::uint32_t body) {
@@ -47,15 +48,15 @@ std::uint32_t other_body(const Contact& contact, std::uint32_t body) {
 // feeble to be seen is still, and must not stay in the air.
 bool is_in_balance(const WorldState& world, std::uint32_t body) {
     if (world.contacts.has_contacts(body)) return true;
-    const BodyDrive& drive = world.drives[body];
+    const BodyDrive& drive = drive_of(world, body);
     return drive.gravity_scale * world.settings.gravity == Vec3{} && drive.force == Vec3{} &&
            drive.torque == Vec3{};
 }
 
 void sleep_island(WorldState& world, std::uint32_t island) {
     world.rest.islands.visit_bodies(island, [&](std::uint32_t body) {
-        world.motions[body].linear_velocity = {};
-        world.motions[body].angular_velocity = {};
+        BodyTravel& travel = world.travels[world.bodies[body].mobile];
+        travel.linear_velocity = travel.angular_velocity = {};
         forget_step_forces(world, body);
         stop_moving(world, body);
     });
@@ -74,7 +75,7 @@ bool is_all_still(const WorldState& world, std::uint32_t island) {
 void watch_bodies(WorldState& world, float dt) {
     for (const std::uint32_t body : world.rest.movers) {
         if (!world.rest.islands.is_there(body)) continue;
-        const BodyMotion& motion = world.motions[body];
+        const BodyMotion motion = motion_of(world, body);
         Sleeper& sleeper = sleeper_of(world, body);
         watch(sleeper.stillness,
               {motion.displacement, motion.rotation, motion.linear_velocity,
@@ -115,7 +116,7 @@ void list_candidates(WorldState& world) {
 void update_membership(WorldState& world, std::uint32_t body) {
     RestState& rest = world.rest;
     const BodyRecord& record = world.bodies[body];
-    const BodyKind kind = world.drives[body].kind;
+    const BodyKind kind = record.kind;
     const bool is_free = record.alive && !record.frozen;
     const bool is_member = is_free && kind == BodyKind::Dynamic;
     if (!is_member && rest.islands.is_there(body)) {
@@ -130,8 +131,8 @@ void update_membership(WorldState& world, std::uint32_t body) {
         start_moving(world, body);
     }
     if (is_member) return;
-    const BodyMotion& motion = world.motions[body];
-    const bool goes = motion.linear_velocity != Vec3{} || motion.angular_velocity != Vec3{};
+    const BodyTravel& travel = travel_of(world, body);
+    const bool goes = travel.linear_velocity != Vec3{} || travel.angular_velocity != Vec3{};
     if (is_free && kind == BodyKind::Kinematic && goes)
         start_moving(world, body);
     else
@@ -146,7 +147,7 @@ void measure_extent(WorldState& world, std::uint32_t body) {
         reach = max(reach, world.shapes[slot].reach);
     });
     // Mass may lie beyond the shapes, or there may be none.
-    const MassProperties& mass = world.bodies[body].mass_properties;
+    const MassProperties& mass = mass_of(world, body);
     const SymmetricMat3& inertia = mass.inertia;
     const float largest = max(inertia.xx, max(inertia.yy, inertia.zz));
     if (mass.mass > 0) reach = max(reach, square_root(largest / mass.mass));
@@ -228,7 +229,7 @@ bool link_contacts(WorldState& world) {
     for (const std::uint32_t body : rest.changed)
         rest.states[body] &= std::uint8_t(~RestState::is_changed);
     rest.any_idle = rest.any_idle || !rest.changed.empty();
-    rest.changed.clear();
+    forget(rest.changed);
     return !rest.starting.empty();
 }
 

@@ -51,9 +51,9 @@ bool is_sound(Position p) {
 // Stands the body still for good, where and as it was; the others go on without its impulses.
 void freeze(WorldState& world, std::uint32_t slot, Quantity quantity) {
     world.bodies[slot].frozen = true;
-    world.inertias[slot] = {};
-    world.motions[slot].linear_velocity = {};
-    world.motions[slot].angular_velocity = {};
+    const std::uint32_t mobile = world.bodies[slot].mobile;
+    world.inertias[mobile] = {};
+    world.travels[mobile].linear_velocity = world.travels[mobile].angular_velocity = {};
     update_membership(world, slot);
     world.non_finite.push_back(
         {body_id(world, slot), world.report.step, world.report.time, quantity});
@@ -148,25 +148,26 @@ void report_end(WorldState& world, std::uint32_t slot) {
 // Gives a moving body the forces of the step and lists it; freezes one whose velocity these would
 // take beyond all numbers.
 void drive_body(WorldState& world, std::uint32_t slot, float h) {
-    const BodyRecord& body = world.bodies[slot];
-    BodyMotion& motion = world.motions[slot];
-    BodyDrive& drive = world.drives[slot];
-    motion.displacement = {};
+    const std::uint32_t mobile = world.bodies[slot].mobile;
+    BodyTravel& travel = world.travels[mobile];
+    BodyDrive& drive = world.drives[mobile];
+    travel.displacement = {};
     drive.force = drive.torque = {};
-    if (body.forces != nothing) {
-        const UserForces& forces = world.forces[body.forces];
+    if (const std::uint32_t place = world.mobiles[mobile].forces; place != nothing) {
+        const UserForces& forces = world.forces[place];
         drive.force = forces.constant_force + forces.step_force;
         drive.torque = forces.constant_torque + forces.step_torque;
         forget_step_forces(world, slot);
     }
-    const BodyInertia& inertia = world.inertias[slot];
+    const BodyInertia& inertia = world.inertias[mobile];
     const Vec3 push =
         drive.gravity_scale * world.settings.gravity + inertia.inverse_mass * drive.force;
-    const Vec3 twist = rotate(
-        motion.rotation, inertia.inverse_inertia * rotate_inverse(motion.rotation, drive.torque));
-    if (!is_sound(motion.linear_velocity + h * push)) {
+    const Quat rotation = world.rotations[slot];
+    const Vec3 twist =
+        rotate(rotation, inertia.inverse_inertia * rotate_inverse(rotation, drive.torque));
+    if (!is_sound(travel.linear_velocity + h * push)) {
         freeze(world, slot, Quantity::LinearVelocity);
-    } else if (!is_sound(motion.angular_velocity + h * twist)) {
+    } else if (!is_sound(travel.angular_velocity + h * twist)) {
         freeze(world, slot, Quantity::AngularVelocity);
     } else {
         world.scratch.moving.push_back(slot);
@@ -287,7 +288,7 @@ void tell_news(WorldState& world, PairRecord& pair) {
 
 // Takes a body where the step brought it; which of its numbers is wrong, if one is.
 std::optional<Quantity> move_body(WorldState& world, std::uint32_t slot, Quat rotation_before) {
-    const BodyMotion& motion = world.motions[slot];
+    const BodyMotion motion = motion_of(world, slot);
     const Position moved = world.positions[slot] + motion.displacement;
     if (!is_sound(motion.linear_velocity)) return Quantity::LinearVelocity;
     if (!is_sound(motion.angular_velocity)) return Quantity::AngularVelocity;
@@ -387,16 +388,10 @@ void advance(WorldState& world, Team& team, double dt) {
     const StageTimer timer(world, Stage::Solve, "solve");
     auto& before = world.scratch.before;
     before.clear();
-    for (const std::uint32_t slot : world.scratch.moving) before.push_back(world.motions[slot]);
+    for (const std::uint32_t slot : world.scratch.moving) before.push_back(motion_of(world, slot));
     const StepSettings& step = world.settings.step;
     StepProblem problem = {
-        .motions = world.motions,
-        .inertias = world.inertias,
-        .drives = world.drives,
-        .heights = {},  // each group brings its own
-        .moving = world.scratch.moving,
         .contacts = world.contacts.slots(),
-        .active = world.scratch.active,
         .gravity = world.settings.gravity,
         .dt = dt,
         .substeps = step.substeps > 0 ? step.substeps : default_substeps(step.solver),
@@ -424,7 +419,7 @@ void move_bodies(WorldState& world, Team& team) {
     bool any_frozen = false;
     for (std::size_t k = 0; k < moving.size(); ++k) {
         if (!wrong[k]) continue;
-        world.motions[moving[k]] = world.scratch.before[k];
+        set_motion(world, moving[k], world.scratch.before[k]);
         freeze(world, moving[k], *wrong[k]);
         any_frozen = true;
     }

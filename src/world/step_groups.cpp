@@ -16,7 +16,7 @@ namespace {
 constexpr std::uint32_t full = 512;
 
 bool is_pushed(const WorldState& world, std::uint32_t body) {
-    return world.inertias[body].inverse_mass > 0;
+    return inertia_of(world, body).inverse_mass > 0;
 }
 
 // Islands of one kind may share a group.
@@ -43,58 +43,63 @@ void StepGroups::form(const WorldState& world) {
     fill_lists(world);
 }
 
-std::uint32_t StepGroups::find_root(std::uint32_t body) {
-    while (parents_[body] != body) {
-        parents_[body] = parents_[parents_[body]];
-        body = parents_[body];
+std::uint32_t StepGroups::find_root(std::uint32_t mobile) {
+    while (parents_[mobile] != mobile) {
+        parents_[mobile] = parents_[parents_[mobile]];
+        mobile = parents_[mobile];
     }
-    return body;
+    return mobile;
 }
 
 void StepGroups::read_contacts(const WorldState& world) {
-    const auto pushed = [&](std::uint32_t body) { return is_pushed(world, body) ? body : none; };
+    const auto pushed = [&](std::uint32_t body) {
+        return is_pushed(world, body) ? world.bodies[body].mobile : none;
+    };
     edges_.resize(world.scratch.active.size());
     visit_contacts(world.contacts.slots(), std::span<const std::uint32_t>(world.scratch.active), 0,
                    [&](const Contact& contact, std::size_t k) {
-                       edges_[k] = {.body_a = pushed(contact.body_a),
-                                    .body_b = pushed(contact.body_b),
+                       edges_[k] = {.mobile_a = pushed(contact.body_a),
+                                    .mobile_b = pushed(contact.body_b),
                                     .size = contact.size,
                                     .touching = contact.touching};
                    });
 }
 
-// Of two roots the lower one stays, so that an island is numbered when its first body is met.
+// Of two roots the lower one stays.
 void StepGroups::join_bodies(const WorldState& world) {
-    parents_.resize(world.bodies.size());
-    for (const std::uint32_t body : world.scratch.moving) parents_[body] = body;
+    parents_.resize(world.mobiles.size());
+    for (const std::uint32_t body : world.scratch.moving) {
+        const std::uint32_t mobile = world.bodies[body].mobile;
+        parents_[mobile] = mobile;
+    }
     for (const Edge& edge : edges_) {
-        if (edge.body_a == none || edge.body_b == none) continue;
-        const std::uint32_t a = find_root(edge.body_a);
-        const std::uint32_t b = find_root(edge.body_b);
+        if (edge.mobile_a == none || edge.mobile_b == none) continue;
+        const std::uint32_t a = find_root(edge.mobile_a);
+        const std::uint32_t b = find_root(edge.mobile_b);
         parents_[std::max(a, b)] = std::min(a, b);
     }
 }
 
 std::uint32_t StepGroups::island_of(const Edge& edge) const {
-    if (edge.body_a != none) return island_[edge.body_a];
-    return edge.body_b != none ? island_[edge.body_b] : none;
+    if (edge.mobile_a != none) return island_[edge.mobile_a];
+    return edge.mobile_b != none ? island_[edge.mobile_b] : none;
 }
 
 void StepGroups::measure_islands(const WorldState& world) {
     islands_.clear();
-    island_.resize(world.bodies.size());
+    island_.resize(world.mobiles.size());
+    for (const std::uint32_t body : world.scratch.moving) island_[world.bodies[body].mobile] = none;
+    // An island is numbered when its first body is met.
     for (const std::uint32_t body : world.scratch.moving) {
-        if (!is_pushed(world, body)) {
-            island_[body] = none;
-            continue;
-        }
-        const std::uint32_t root = find_root(body);
-        if (root == body) {
-            island_[body] = std::uint32_t(islands_.size());
+        if (!is_pushed(world, body)) continue;
+        const std::uint32_t mobile = world.bodies[body].mobile;
+        std::uint32_t& number = island_[find_root(mobile)];
+        if (number == none) {
+            number = std::uint32_t(islands_.size());
             islands_.emplace_back();
         }
-        island_[body] = island_[root];
-        ++islands_[island_[body]].bodies;
+        island_[mobile] = number;
+        ++islands_[number].bodies;
     }
     for (const Edge& edge : edges_) {
         const std::uint32_t number = island_of(edge);
@@ -133,7 +138,8 @@ void StepGroups::give_groups() {
 void StepGroups::fill_lists(const WorldState& world) {
     groups_.assign(group_count_ + 2, {});
     const auto group_of = [&](std::uint32_t body) {
-        return island_[body] == none ? group_count_ : islands_[island_[body]].group;
+        const std::uint32_t island = island_[world.bodies[body].mobile];
+        return island == none ? group_count_ : islands_[island].group;
     };
     for (const std::uint32_t body : world.scratch.moving) ++groups_[group_of(body) + 1].moving;
     for (const Island& island : islands_) groups_[island.group + 1].active += island.contacts;

@@ -56,13 +56,13 @@ private:
 
     // What groups follow from of a contact; `none` for a body that cannot be pushed.
     struct Edge {
-        std::uint32_t body_a = none, body_b = none;
+        std::uint32_t mobile_a = none, mobile_b = none;
         float size = 0;
         bool touching = false;
     };
 
     void read_contacts(const WorldState& world);
-    std::uint32_t find_root(std::uint32_t body);
+    std::uint32_t find_root(std::uint32_t mobile);
     void join_bodies(const WorldState& world);
     void measure_islands(const WorldState& world);
     void give_groups();
@@ -70,7 +70,7 @@ private:
     std::uint32_t island_of(const Edge& edge) const;
 
     std::vector<Edge> edges_;             // by place in the list of contacts
-    std::vector<std::uint32_t> parents_;  // by body, of those that move
+    std::vector<std::uint32_t> parents_;  // by mobile, of those that move
     std::vector<std::uint32_t> island_;   // likewise; none for kinematic ones
     std::vector<Island> islands_;
     std::vector<OpenGroup> open_;

@@ -17,12 +17,12 @@ namespace cairn {
 namespace {
 
 bool can_move(const WorldState& world, std::uint32_t slot) {
-    return world.drives[slot].kind == BodyKind::Dynamic && !world.bodies[slot].frozen;
+    return world.bodies[slot].kind == BodyKind::Dynamic && !world.bodies[slot].frozen;
 }
 
 // Mass properties from what the user gave and the shapes weigh; an error where a dynamic body gets
 // none.
-Result<MassProperties> resolve_mass(const BodyRecord& body, BodyKind kind,
+Result<MassProperties> resolve_mass(const MobileRecord& body, BodyKind kind,
                                     std::span<const ShapeDef> shapes) {
     if (body.has_given_properties) return body.mass_properties;
     MassProperties properties = combined_mass_properties(shapes);
@@ -42,6 +42,10 @@ Result<MassProperties> resolve_mass(const BodyRecord& body, BodyKind kind,
     if (const Refusal r = check_mass_properties("the shapes' mass properties", properties))
         return *r;
     return properties;
+}
+
+const MobileRecord& mobile_record(const WorldState& world, std::uint32_t body) {
+    return world.mobiles[world.bodies[body].mobile];
 }
 
 std::vector<ShapeDef> shape_defs(const WorldState& world, std::uint32_t body) {
@@ -79,21 +83,25 @@ void seat_shape(WorldState& world, ShapeRecord& shape, const Pose& local_pose,
 // Gives the body its mass properties; its origin stays where it is, its points keep their
 // velocities.
 void assign_mass(WorldState& world, std::uint32_t slot, const MassProperties& properties) {
-    BodyRecord& body = world.bodies[slot];
-    BodyMotion& motion = world.motions[slot];
-    const Vec3 shift =
-        rotate(motion.rotation, properties.center_of_mass - body.mass_properties.center_of_mass);
-    world.positions[slot] = world.positions[slot] + shift;
-    motion.linear_velocity += cross(motion.angular_velocity, shift);
-    body.mass_properties = properties;
-    world.inertias[slot] = can_move(world, slot) ? make_inertia(properties) : BodyInertia{};
-    float& reach = world.ways[slot].reach = 0;
+    if (properties.center_of_mass != Vec3{}) make_mobile(world, slot);
+    const std::uint32_t mobile = world.bodies[slot].mobile;
+    if (mobile != scenery) {
+        BodyTravel& travel = world.travels[mobile];
+        const Vec3 shift =
+            rotate(world.rotations[slot], properties.center_of_mass - center_of_mass(world, slot));
+        world.positions[slot] = world.positions[slot] + shift;
+        travel.linear_velocity += cross(travel.angular_velocity, shift);
+        world.mobiles[mobile].mass_properties = properties;
+        world.inertias[mobile] = can_move(world, slot) ? make_inertia(properties) : BodyInertia{};
+    }
+    float reach = 0;
     visit_shapes(world, slot, [&](std::uint32_t s) {
         ShapeRecord& shape = world.shapes[s];
         seat_shape(world, shape, seat_of(world, shape).local_pose, properties.center_of_mass);
         shape.reach = length(seat_of(world, shape).offset) + bounding_radius(shape.geometry);
         reach = max(reach, shape.reach);
     });
+    if (mobile != scenery) world.ways[mobile].reach = reach;
     measure_extent(world, slot);
 }
 
@@ -217,7 +225,7 @@ Result<BodyId> World::create_body(const BodyDef& def) {
     const FloatEnvironment ieee;
     WorldState& world = *state_;
     if (const Refusal r = check_body(def)) return tell(world, "create_body", *r);
-    BodyRecord wanted;
+    MobileRecord wanted;
     wanted.given_mass = def.mass.value_or(0.0f);
     wanted.has_given_properties = def.mass_properties.has_value();
     const Result<MassProperties> mass =
@@ -228,38 +236,40 @@ Result<BodyId> World::create_body(const BodyDef& def) {
     if (slot == world.bodies.size()) {
         world.bodies.emplace_back();
         world.positions.emplace_back();
-        world.motions.emplace_back();
-        world.inertias.emplace_back();
-        world.drives.emplace_back();
-        world.ways.emplace_back();
+        world.rotations.emplace_back();
         world.rest.states.push_back(0);
     }
     BodyRecord& body = world.bodies[slot];
-    wanted.generation = body.generation;
-    wanted.alive = true;
-    wanted.filter = def.collision;
-    wanted.can_sleep = def.can_sleep;
-    body = wanted;
+    body.kind = def.kind;
+    body.alive = true;
+    body.can_sleep = def.can_sleep;
+    body.filter = def.collision;
+    ++world.body_count;
+
+    const BodyDrive drive = {.gyroscopic = def.gyroscopic,
+                             .lock = def.lock,
+                             .gravity_scale = def.gravity_scale,
+                             .linear_damping = def.linear_damping,
+                             .angular_damping = def.angular_damping};
+    const bool has_given_mass = def.mass || def.mass_properties;
+    if (def.kind != BodyKind::Static || has_given_mass || drive != BodyDrive{}) {
+        const std::uint32_t mobile = make_mobile(world, slot);
+        world.mobiles[mobile] = wanted;
+        world.drives[mobile] = drive;
+    }
     if (def.force != Vec3{} || def.torque != Vec3{}) {
         forces_of(world, slot).constant_force = def.force;
         forces_of(world, slot).constant_torque = def.torque;
     }
-    ++world.body_count;
-
-    world.drives[slot] = {.kind = def.kind,
-                          .gyroscopic = def.gyroscopic,
-                          .lock = def.lock,
-                          .gravity_scale = def.gravity_scale,
-                          .linear_damping = def.linear_damping,
-                          .angular_damping = def.angular_damping};
     world.positions[slot] = def.position;
-    world.motions[slot] = {.rotation = normalize(def.rotation)};
+    world.rotations[slot] = normalize(def.rotation);
     for (const ShapeDef& shape : def.shapes) add_shape(world, slot, shape);
     assign_mass(world, slot, *mass);
     // Given for the center of mass, and nothing moves that is static.
     if (def.kind != BodyKind::Static) {
-        world.motions[slot].linear_velocity = def.linear_velocity;
-        world.motions[slot].angular_velocity = def.angular_velocity;
+        BodyTravel& travel = world.travels[body.mobile];
+        travel.linear_velocity = def.linear_velocity;
+        travel.angular_velocity = def.angular_velocity;
     }
     update_membership(world, slot);
     note_change(world, slot);
@@ -273,14 +283,13 @@ Status World::destroy_body(BodyId id) {
     note_change(world, id.index);
     forget_contacts(world, id.index);
     while (body.last_shape != nothing) remove_shape(world, body.last_shape);
-    forget_forces(world, id.index);
+    body.alive = false;
+    update_membership(world, id.index);
+    make_scenery(world, id.index);
     const std::uint32_t generation = body.generation + 1;
     body = {};
     body.generation = generation;
-    update_membership(world, id.index);
-    world.motions[id.index] = {};
-    world.inertias[id.index] = {};
-    world.drives[id.index] = {};
+    world.rotations[id.index] = {};
     world.free_bodies.push_back(id.index);
     --world.body_count;
     return Done{};
@@ -290,11 +299,11 @@ Result<ShapeId> World::create_shape(BodyId id, const ShapeDef& def) {
     const FloatEnvironment ieee;
     WorldState& world = *state_;
     if (!names(world, id)) return tell(world, stale("create_shape", "body"));
-    const BodyKind kind = world.drives[id.index].kind;
+    const BodyKind kind = world.bodies[id.index].kind;
     if (const Refusal r = check_shape("shape", def, kind)) return tell(world, "create_shape", *r);
     std::vector<ShapeDef> defs = shape_defs(world, id.index);
     defs.push_back(def);
-    const Result<MassProperties> mass = resolve_mass(world.bodies[id.index], kind, defs);
+    const Result<MassProperties> mass = resolve_mass(mobile_record(world, id.index), kind, defs);
     if (!mass) return tell(world, "create_shape", mass.error());
     const std::uint32_t slot = add_shape(world, id.index, def);
     assign_mass(world, id.index, *mass);
@@ -307,12 +316,12 @@ Status World::destroy_shape(ShapeId id) {
     WorldState& world = *state_;
     if (!names(world, id)) return tell(world, stale("destroy_shape", "shape"));
     const std::uint32_t slot = world.shapes[id.index].body;
-    BodyRecord& body = world.bodies[slot];
     std::vector<ShapeDef> defs;
     visit_shapes(world, slot, [&](std::uint32_t s) {
         if (s != id.index) defs.push_back(shape_def(world, s));
     });
-    const Result<MassProperties> mass = resolve_mass(body, world.drives[slot].kind, defs);
+    const Result<MassProperties> mass =
+        resolve_mass(mobile_record(world, slot), world.bodies[slot].kind, defs);
     if (!mass) return tell(world, "destroy_shape", mass.error());
     note_change(world, slot);
     remove_shape(world, id.index);
@@ -366,13 +375,13 @@ BodyState World::state(BodyId id) const {
         tell(world, stale("state", "body"));
         return {};
     }
-    const BodyMotion& motion = world.motions[id.index];
+    const BodyTravel& travel = travel_of(world, id.index);
     return {.position = origin_position(world, id.index),
             .center_of_mass = world.positions[id.index],
-            .rotation = motion.rotation,
-            .linear_velocity = motion.linear_velocity,
-            .angular_velocity = motion.angular_velocity,
-            .kind = world.drives[id.index].kind,
+            .rotation = world.rotations[id.index],
+            .linear_velocity = travel.linear_velocity,
+            .angular_velocity = travel.angular_velocity,
+            .kind = world.bodies[id.index].kind,
             .asleep = is_asleep(world, id.index),
             .frozen = world.bodies[id.index].frozen};
 }
@@ -388,8 +397,8 @@ MassProperties World::mass_properties(BodyId id) const {
         tell(world, stale("mass_properties", "body"));
         return {};
     }
-    const MassProperties& properties = world.bodies[id.index].mass_properties;
-    if (world.drives[id.index].kind == BodyKind::Dynamic) return properties;
+    const MassProperties& properties = mass_of(world, id.index);
+    if (world.bodies[id.index].kind == BodyKind::Dynamic) return properties;
     return {.mass = 0, .center_of_mass = properties.center_of_mass, .inertia = {}};
 }
 
@@ -400,13 +409,13 @@ Status World::set_pose(BodyId id, const Position& position, const Quat& rotation
     if (const Refusal r = check_position("position", position)) return tell(world, "set_pose", *r);
     if (const Refusal r = check_rotation("rotation", rotation)) return tell(world, "set_pose", *r);
     BodyRecord& body = world.bodies[id.index];
-    world.motions[id.index].rotation = normalize(rotation);
+    world.rotations[id.index] = normalize(rotation);
     world.positions[id.index] =
-        position + rotate(world.motions[id.index].rotation, center_of_mass(world, id.index));
+        position + rotate(world.rotations[id.index], center_of_mass(world, id.index));
     if (body.frozen) {
         body.frozen = false;
-        world.inertias[id.index] =
-            can_move(world, id.index) ? make_inertia(body.mass_properties) : BodyInertia{};
+        world.inertias[body.mobile] =
+            can_move(world, id.index) ? make_inertia(mass_of(world, id.index)) : BodyInertia{};
     }
     update_membership(world, id.index);
     note_change(world, id.index);
@@ -419,9 +428,10 @@ Status World::set_linear_velocity(BodyId id, const Vec3& velocity) {
     if (!names(world, id)) return tell(world, stale("set_linear_velocity", "body"));
     if (const Refusal r = check_finite("velocity", velocity))
         return tell(world, "set_linear_velocity", *r);
-    if (world.drives[id.index].kind == BodyKind::Static) return Done{};
-    if (world.motions[id.index].linear_velocity == velocity) return Done{};
-    world.motions[id.index].linear_velocity = velocity;
+    if (world.bodies[id.index].kind == BodyKind::Static) return Done{};
+    Vec3& present = world.travels[world.bodies[id.index].mobile].linear_velocity;
+    if (present == velocity) return Done{};
+    present = velocity;
     wake(world, id.index);
     update_membership(world, id.index);
     return Done{};
@@ -432,9 +442,10 @@ Status World::set_angular_velocity(BodyId id, const Vec3& velocity) {
     if (!names(world, id)) return tell(world, stale("set_angular_velocity", "body"));
     if (const Refusal r = check_finite("velocity", velocity))
         return tell(world, "set_angular_velocity", *r);
-    if (world.drives[id.index].kind == BodyKind::Static) return Done{};
-    if (world.motions[id.index].angular_velocity == velocity) return Done{};
-    world.motions[id.index].angular_velocity = velocity;
+    if (world.bodies[id.index].kind == BodyKind::Static) return Done{};
+    Vec3& present = world.travels[world.bodies[id.index].mobile].angular_velocity;
+    if (present == velocity) return Done{};
+    present = velocity;
     wake(world, id.index);
     update_membership(world, id.index);
     return Done{};
@@ -448,26 +459,26 @@ Status World::move_kinematic(BodyId id, const Position& position, const Quat& ro
     if (const Refusal r = check_position("position", position)) return tell(world, call, *r);
     if (const Refusal r = check_rotation("rotation", rotation)) return tell(world, call, *r);
     if (const Refusal r = check_positive("dt", dt)) return tell(world, call, *r);
-    if (world.drives[id.index].kind != BodyKind::Kinematic) {
+    if (world.bodies[id.index].kind != BodyKind::Kinematic) {
         return tell(world,
                     {ErrorCode::OutOfRange,
                      std::string(call) + ": the body is not kinematic; allowed: kinematic bodies"});
     }
-    BodyMotion& motion = world.motions[id.index];
     const Quat target = normalize(rotation);
     const Position center = position + rotate(target, center_of_mass(world, id.index));
     const auto rate = float(1.0 / dt);
     const Vec3 velocity = rate * (center - world.positions[id.index]);
     // The turn's logarithm: the shorter way round.
-    Quat turned = target * conjugate(motion.rotation);
+    Quat turned = target * conjugate(world.rotations[id.index]);
     if (turned.w < 0) turned = {-turned.x, -turned.y, -turned.z, -turned.w};
     const Vec3 axis = {turned.x, turned.y, turned.z};
     const float sine = length(axis);
     const auto angle = float(2 * exact_arc_tangent2(double(sine), double(turned.w)));
     const Vec3 spin = sine > 0 ? (rate * angle / sine) * axis : Vec3{};
     if (const Refusal r = check_finite("position", velocity)) return tell(world, call, *r);
-    motion.linear_velocity = velocity;
-    motion.angular_velocity = spin;
+    BodyTravel& travel = world.travels[world.bodies[id.index].mobile];
+    travel.linear_velocity = velocity;
+    travel.angular_velocity = spin;
     update_membership(world, id.index);
     return Done{};
 }
@@ -481,14 +492,15 @@ Status World::set_kind(BodyId id, BodyKind kind) {
     for (const ShapeDef& def : defs) {
         if (const Refusal r = check_shape("shape", def, kind)) return tell(world, "set_kind", *r);
     }
-    const Result<MassProperties> mass = resolve_mass(body, kind, defs);
+    const Result<MassProperties> mass = resolve_mass(mobile_record(world, id.index), kind, defs);
     if (!mass) return tell(world, "set_kind", mass.error());
     // As what it was: it wakes, and so do the contacts that it sleeps with.
     note_change(world, id.index);
-    world.drives[id.index].kind = kind;
-    if (kind == BodyKind::Static) {
-        world.motions[id.index].linear_velocity = {};
-        world.motions[id.index].angular_velocity = {};
+    body.kind = kind;
+    if (kind != BodyKind::Static) make_mobile(world, id.index);
+    if (kind == BodyKind::Static && body.mobile != scenery) {
+        BodyTravel& travel = world.travels[body.mobile];
+        travel.linear_velocity = travel.angular_velocity = {};
     }
     assign_mass(world, id.index, *mass);
     update_membership(world, id.index);
@@ -501,8 +513,9 @@ Status World::set_mass_properties(BodyId id, const MassProperties& properties) {
     if (!names(world, id)) return tell(world, stale("set_mass_properties", "body"));
     if (const Refusal r = check_mass_properties("mass_properties", properties))
         return tell(world, "set_mass_properties", *r);
-    world.bodies[id.index].given_mass = 0;
-    world.bodies[id.index].has_given_properties = true;
+    MobileRecord& record = world.mobiles[make_mobile(world, id.index)];
+    record.given_mass = 0;
+    record.has_given_properties = true;
     assign_mass(world, id.index, properties);
     note_change(world, id.index);
     return Done{};

@@ -26,18 +26,32 @@ namespace cairn {
 
 constexpr std::uint32_t nothing = 0xffffffffu;
 
-// A body's cold side: identity, and what the user said of it.
+// Where the mobiles begin: the place of all scenery.
+constexpr std::uint32_t scenery = 0;
+
+// What every body has beside its pose.
 struct BodyRecord {
     std::uint32_t generation = 0;
+    BodyKind kind = BodyKind::Static;
     bool alive = false;
     bool frozen = false;
     bool can_sleep = true;
-    bool has_given_properties = false;  // its mass properties are the user's, not the shapes'
-    float given_mass = 0;               // what the shapes' densities are scaled to; 0: as they are
     CollisionFilter filter;
-    MassProperties mass_properties;  // as dynamic, whatever the kind is now
     std::uint32_t first_shape = nothing, last_shape = nothing;  // in order of creation
-    std::uint32_t forces = nothing;  // its place among the user's forces, if there were any
+    std::uint32_t mobile = scenery;                             // its place among the mobiles
+};
+
+// A mobile's cold side: what the user said of it.
+struct MobileRecord {
+    MassProperties mass_properties;     // as dynamic, whatever the kind is now
+    float given_mass = 0;               // what the shapes' densities are scaled to; 0: as they are
+    bool has_given_properties = false;  // its mass properties are the user's, not the shapes'
+    std::uint32_t forces = nothing;     // its place among the user's forces, if there were any
+};
+
+// How a body goes: its motion but for the rotation, which scenery has too.
+struct BodyTravel {
+    Vec3 linear_velocity, angular_velocity, displacement;  // as in BodyMotion
 };
 
 // What the user pushes a body with.
@@ -105,14 +119,21 @@ struct WorldState {
     // By body slot.
     LargeArray<BodyRecord> bodies;
     LargeArray<Position> positions;  // of the centers of mass
-    LargeArray<BodyMotion> motions;
-    LargeArray<BodyInertia> inertias;
-    LargeArray<BodyDrive> drives;
-    LargeArray<BodyWay> ways;
+    LargeArray<Quat> rotations;      // body to world
     LargeArray<std::uint32_t> free_bodies;
+    std::size_t body_count = 0;
+
+    // By mobile: what bodies need only once they can move. Scenery is all that is static, turns
+    // about its own origin and has nothing said of it that would matter if it moved; it shares the
+    // first place, which holds what moves nowhere and is never written.
+    LargeArray<MobileRecord> mobiles{1};
+    LargeArray<BodyTravel> travels{1};
+    LargeArray<BodyInertia> inertias{1};
+    LargeArray<BodyDrive> drives{1};
+    LargeArray<BodyWay> ways{1};
+    LargeArray<std::uint32_t> free_mobiles;
     std::vector<UserForces> forces;  // of the few bodies that were ever given any
     std::vector<std::uint32_t> free_forces;
-    std::size_t body_count = 0;
 
     LargeArray<ShapeRecord> shapes;  // by shape slot
     LargeArray<std::uint32_t> free_shapes;
@@ -192,19 +213,46 @@ void visit_shapes(const WorldState& world, std::uint32_t body, Visit&& visit) {
     }
 }
 
+inline const BodyTravel& travel_of(const WorldState& world, std::uint32_t body) {
+    return world.travels[world.bodies[body].mobile];
+}
+inline const BodyInertia& inertia_of(const WorldState& world, std::uint32_t body) {
+    return world.inertias[world.bodies[body].mobile];
+}
+inline const BodyDrive& drive_of(const WorldState& world, std::uint32_t body) {
+    return world.drives[world.bodies[body].mobile];
+}
+inline const BodyWay& way_of(const WorldState& world, std::uint32_t body) {
+    return world.ways[world.bodies[body].mobile];
+}
+inline const MassProperties& mass_of(const WorldState& world, std::uint32_t body) {
+    return world.mobiles[world.bodies[body].mobile].mass_properties;
+}
+
+inline BodyMotion motion_of(const WorldState& world, std::uint32_t body) {
+    const BodyTravel& travel = travel_of(world, body);
+    return {travel.linear_velocity, travel.angular_velocity, world.rotations[body],
+            travel.displacement};
+}
+// Of a body that is not scenery.
+inline void set_motion(WorldState& world, std::uint32_t body, const BodyMotion& motion) {
+    world.rotations[body] = motion.rotation;
+    world.travels[world.bodies[body].mobile] = {motion.linear_velocity, motion.angular_velocity,
+                                                motion.displacement};
+}
+
 inline void forget_step_forces(WorldState& world, std::uint32_t body) {
-    const std::uint32_t place = world.bodies[body].forces;
+    const std::uint32_t place = world.mobiles[world.bodies[body].mobile].forces;
     if (place != nothing) world.forces[place].step_force = world.forces[place].step_torque = {};
 }
 
 inline Vec3 center_of_mass(const WorldState& world, std::uint32_t body) {
-    return world.bodies[body].mass_properties.center_of_mass;  // body frame
+    return mass_of(world, body).center_of_mass;  // body frame
 }
 
 // Where the body frame's origin is.
 inline Position origin_position(const WorldState& world, std::uint32_t slot) {
-    return world.positions[slot] -
-           rotate(world.motions[slot].rotation, center_of_mass(world, slot));
+    return world.positions[slot] - rotate(world.rotations[slot], center_of_mass(world, slot));
 }
 
 }  // namespace cairn

@@ -61,7 +61,6 @@ TEST_CASE("a steady spin turns by h w a substep, whatever the substep") {
 TEST_CASE("a damped speed is divided by 1 + c h every substep") {
     const BodyInertia inertia = make_inertia({.mass = 1, .inertia = {1, 1, 1, 0, 0, 0}});
     BodyDrive drive;
-    drive.kind = BodyKind::Dynamic;
     drive.linear_damping = 0.5f;
     BodyMotion motion;
     motion.linear_velocity = {1, 0, 0};

@@ -18,7 +18,6 @@ public:
     explicit Corner(std::uint32_t seed) : state_(seed) {
         inertias_[1] = make_inertia({.mass = 50, .inertia = {4, 4, 6, 0, 0, 0}});
         inertias_[2] = make_inertia({.mass = 800, .inertia = {56, 73, 50, 0, 0, 0}});
-        drives_[1].kind = drives_[2].kind = BodyKind::Dynamic;
         motions_[2].linear_velocity = {roll(6), -8, roll(6)};
         motions_[2].angular_velocity = {roll(12), roll(12), roll(12)};
         add_row(0, 1, {0, 1, 0}, {{roll(0.4f), -0.2f, 0.3f}, {roll(0.4f), -0.2f, -0.3f}}, {});

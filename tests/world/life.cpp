@@ -120,6 +120,58 @@ TEST_CASE("a shape added off the center shifts the center of mass and leaves the
     CHECK_FALSE(world.destroy_shape(world.shapes(body)[0]).ok());
 }
 
+TEST_CASE("what is said of a static body holds once it is dynamic, and for that body alone") {
+    World world;
+    BodyDef def = cube({0, 0, 0});
+    def.kind = BodyKind::Static;
+    const BodyId told = *world.create_body(def);
+    def.position = {5, 0, 0};
+    const BodyId other = *world.create_body(def);
+    CHECK(world.set_gravity_scale(told, 0).ok());
+    CHECK(world.set_damping(told, 0.5f, 0).ok());
+    CHECK(world.set_locked_axes(told, {.z = true}).ok());
+    CHECK(world.set_constant_force(told, {1000, 0, 1000}, {}).ok());
+    CHECK(world.apply_impulse(other, {1000, 0, 0}).ok());
+    for (const BodyId body : {told, other}) CHECK(world.set_kind(body, BodyKind::Dynamic).ok());
+    world.step(dt);
+    // 1 m/s^2 on 1000 kg, hardly damped yet, and no fall.
+    CHECK(double(world.linear_velocity(told).x) == doctest::Approx(dt).epsilon(0.01));
+    CHECK(double(world.linear_velocity(told).y) == 0.0);
+    CHECK(double(world.linear_velocity(told).z) == 0.0);
+    // A static body takes no impulse; this one falls, and nothing else.
+    CHECK(double(world.linear_velocity(other).x) == 0.0);
+    CHECK(double(world.linear_velocity(other).y) == doctest::Approx(-10 * dt).epsilon(0.03));
+    // Nor does one inherit anything that comes in where another was.
+    CHECK(world.destroy_body(told).ok());
+    const BodyId heir = *world.create_body(cube({0, 9, 0}));
+    world.step(dt);
+    CHECK(double(world.linear_velocity(heir).x) == 0.0);
+    CHECK(double(world.linear_velocity(heir).y) == doctest::Approx(-10 * dt).epsilon(0.03));
+}
+
+TEST_CASE(
+    "a static shape off the middle, and turned, is where it was put, and its def comes back") {
+    World world;
+    const Quat turned = rotation_about({0, 0, 1}, 0.5);
+    const ShapeDef def = {.geometry = Box{{1, 2, 3}},
+                          .local_pose = {{0, 4, 0}, turned},
+                          .density = 300,
+                          .material = {.friction = 0.3f}};
+    const BodyId body =
+        *world.create_body({.kind = BodyKind::Static, .position = {1, 0, 0}, .shapes = {def}});
+    CHECK(world.position(body) == Position{1, 0, 0});
+    const ShapeDef back = world.shape(world.shapes(body)[0]);
+    CHECK(back.geometry == def.geometry);
+    CHECK(back.local_pose.position == def.local_pose.position);
+    CHECK(double(back.local_pose.rotation.z) == doctest::Approx(double(turned.z)));
+    CHECK(back.density == def.density);
+    CHECK(back.material == def.material);
+    CHECK(world.mass_properties(body).center_of_mass == Vec3{0, 4, 0});
+    CHECK(world.destroy_shape(world.shapes(body)[0]).ok());
+    CHECK(world.position(body) == Position{1, 0, 0});
+    CHECK(world.mass_properties(body).center_of_mass == Vec3{});
+}
+
 TEST_CASE("a kinematic body arrives where it was sent, turned as told") {
     World world;
     const BodyId body =
