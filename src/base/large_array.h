@@ -36,6 +36,14 @@ struct LargePages {
 template <class Element>
 using LargeArray = std::vector<Element, LargePages<Element>>;
 
+// Room for `size` elements in all: for exactly so many at first, where it grows again for twice as
+// many as before. Filled one by one, an array touches as much memory again as it needs.
+template <class Element>
+void make_room(LargeArray<Element>& elements, std::size_t size) {
+    const std::size_t before = elements.capacity();
+    if (size > before) elements.reserve(size > 2 * before ? size : 2 * before);
+}
+
 // Empties a list, and gives its memory back if it is as long as lists are only once, when a world
 // is built.
 template <class Element>

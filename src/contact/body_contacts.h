@@ -16,6 +16,9 @@ class BodyContacts {
 public:
     static constexpr std::uint32_t none = 0xffffffffu;
 
+    // Room for so many slots.
+    void reserve(std::size_t slots) { links_.reserve(slots); }
+
     // The slot must not be attached, the bodies must differ.
     void attach(std::uint32_t slot, std::uint32_t body_a, std::uint32_t body_b) {
         if (slot >= links_.size()) links_.resize(std::size_t{slot} + 1);

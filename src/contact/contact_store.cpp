@@ -12,10 +12,11 @@ std::uint64_t key_of(const PairRecord& pair) { return pair_key(pair.shape_a, pai
 
 }  // namespace
 
-void ContactStore::begin_renewal() {
+void ContactStore::begin_renewal(std::size_t pair_count) {
     list_returned();
     previous_.swap(pairs_);
     pairs_.clear();
+    cairn::make_room(pairs_, pair_count);
     ended_.clear();
     place_ = 0;
 }
@@ -85,6 +86,7 @@ void ContactStore::make_room(std::size_t more) {
     slots_.reserve(room);
     sightings_.reserve(room);
     listings_.reserve(room);
+    by_body_.reserve(room);
 }
 
 Contact& ContactStore::add_contact(PairRecord& pair, std::uint32_t body_a, std::uint32_t body_b) {

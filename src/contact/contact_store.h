@@ -41,9 +41,9 @@ class ContactStore {
 public:
     static constexpr std::uint32_t none = PairTable::none;
 
-    // A renewal lists all pairs of the step, in ascending order of key; those not listed end, or
-    // are put aside.
-    void begin_renewal();
+    // A renewal lists all pairs of the step, so many, in ascending order of key; those not listed
+    // end, or are put aside.
+    void begin_renewal(std::size_t pair_count);
     void renew(std::uint32_t shape_a, std::uint32_t shape_b);
     // Ends what was not renewed, calling on_end(slot) for each that has a contact, in ascending
     // order of key. Those whose contact is_idle(contact) are put aside.

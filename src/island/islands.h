@@ -33,6 +33,8 @@ public:
         return body < places_.size() && places_[body] != none;
     }
 
+    // Room for so many links in all.
+    void reserve_links(std::size_t count) { make_room(links_, count); }
     // The link's number, for remove_link(). `none`, and nothing done, where one of the two is not
     // there or both are the same. Two bodies may be linked more than once.
     std::uint32_t add_link(std::uint32_t body_a, std::uint32_t body_b);

@@ -218,6 +218,7 @@ void unlink_contact(WorldState& world, std::uint32_t slot) {
 bool link_contacts(WorldState& world) {
     RestState& rest = world.rest;
     rest.links.resize(world.contacts.slots().size(), Islands::none);
+    rest.islands.reserve_links(world.scratch.active.size());
     for (const std::uint32_t slot : world.scratch.active) {
         if (rest.links[slot] != Islands::none) continue;
         const std::uint32_t a = world.contacts[slot].body_a;

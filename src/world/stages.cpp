@@ -318,7 +318,7 @@ void apply_changes(WorldState& world, double dt) {
 void find_pairs(WorldState& world, Team& team, double dt) {
     const StageTimer timer(world, Stage::FindPairs, "find-pairs");
     find_step_pairs(world, team, dt, world.scratch.pairs);
-    world.contacts.begin_renewal();
+    world.contacts.begin_renewal(world.scratch.pairs.size());
     for (const Pair& pair : world.scratch.pairs) world.contacts.renew(pair.a, pair.b);
     const auto is_idle = [&](const Contact& contact) {
         return !is_looked_at(world, contact.body_a) && !is_looked_at(world, contact.body_b);
@@ -388,6 +388,7 @@ void advance(WorldState& world, Team& team, double dt) {
     const StageTimer timer(world, Stage::Solve, "solve");
     auto& before = world.scratch.before;
     before.clear();
+    make_room(before, world.scratch.moving.size());
     for (const std::uint32_t slot : world.scratch.moving) before.push_back(motion_of(world, slot));
     const StepSettings& step = world.settings.step;
     StepProblem problem = {
@@ -436,19 +437,22 @@ void move_bodies(WorldState& world, Team& team) {
 void report_contacts(WorldState& world, Team& team) {
     const StageTimer timer(world, Stage::Finish, "report-contacts");
     for_pair_blocks(world, team, [&](std::span<PairRecord> pairs, std::size_t, PairBlock& block) {
-        block.has_news = false;
+        block.news_count = 0;
         for (std::size_t i = 0; i < pairs.size(); ++i) {
             if (i + contacts_ahead < pairs.size())
                 world.contacts.prefetch(pairs[i + contacts_ahead].contact, 1);
             PairRecord& pair = pairs[i];
             pair.has_news =
                 pair.contact != ContactStore::none && has_news(world.contacts[pair.contact]);
-            block.has_news = block.has_news || pair.has_news;
+            block.news_count += pair.has_news ? 1 : 0;
         }
     });
+    std::size_t event_count = world.events.size();
+    for (const PairBlock& block : world.scratch.pair_blocks) event_count += block.news_count;
+    make_room(world.events, event_count);
     const std::span<PairRecord> pairs = world.contacts.pairs();
     for (std::size_t i = 0; i < pairs.size(); ++i) {
-        if (!world.scratch.pair_blocks[i / pairs_a_block].has_news) continue;
+        if (world.scratch.pair_blocks[i / pairs_a_block].news_count == 0) continue;
         if (pairs[i].has_news) tell_news(world, pairs[i]);
     }
 }

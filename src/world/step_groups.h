@@ -15,6 +15,8 @@
 #include <span>
 #include <vector>
 
+#include "base/large_array.h"
+
 namespace cairn {
 
 struct WorldState;
@@ -69,14 +71,14 @@ private:
     void fill_lists(const WorldState& world);
     std::uint32_t island_of(const Edge& edge) const;
 
-    std::vector<Edge> edges_;             // by place in the list of contacts
+    LargeArray<Edge> edges_;              // by place in the list of contacts
     std::vector<std::uint32_t> parents_;  // by mobile, of those that move
     std::vector<std::uint32_t> island_;   // likewise; none for kinematic ones
     std::vector<Island> islands_;
     std::vector<OpenGroup> open_;
     std::vector<Range> groups_, next_;  // and one more: where the lists end
     std::uint32_t group_count_ = 0;
-    std::vector<std::uint32_t> moving_, active_;
+    LargeArray<std::uint32_t> moving_, active_;
 };
 
 }  // namespace cairn

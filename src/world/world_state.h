@@ -107,7 +107,7 @@ struct PairBlock {
     std::uint32_t contact_count = 0;  // pairs that meet
     std::uint32_t point_count = 0;
     std::uint32_t reused_count = 0;
-    bool has_news = false;  // a contact began, ended or has no points
+    std::uint32_t news_count = 0;  // contacts that began, ended or have no points
 };
 
 struct WorldState {
@@ -152,7 +152,7 @@ struct WorldState {
 
     StepReport report;
     double last_dt = 0;
-    std::vector<ContactEvent> events;
+    LargeArray<ContactEvent> events;
     std::vector<NonFinite> non_finite;
 
     // Where a worker advances groups of the step, of no meaning between steps.

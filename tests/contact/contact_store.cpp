@@ -16,7 +16,7 @@ using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 // and those from `idle` on rest.
 Keys renew(ContactStore& store, const Pairs& pairs, std::uint32_t idle = 1000) {
     Keys ended;
-    store.begin_renewal();
+    store.begin_renewal(pairs.size());
     for (const auto& [a, b] : pairs) store.renew(a, b);
     store.end_renewal([&](const Contact& c) { return c.body_a >= idle && c.body_b >= idle; },
                       [&](std::uint32_t slot) { ended.push_back(store[slot].key); });
@@ -67,11 +67,11 @@ TEST_CASE("a pair without a contact ends in silence, and keeps what is known of 
     ContactStore store;
     const auto never = [](const Contact&) { return false; };
     const auto fail = [](std::uint32_t) { FAIL("there is no contact"); };
-    store.begin_renewal();
+    store.begin_renewal(1);
     store.renew(1, 2);
     store.end_renewal(never, fail);
     store.pairs()[0].apart_until = 7;
-    store.begin_renewal();
+    store.begin_renewal(2);
     store.renew(0, 9);
     store.renew(1, 2);
     store.end_renewal(never, fail);
