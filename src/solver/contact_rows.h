@@ -15,9 +15,6 @@
 namespace cairn {
 
 struct PointRow {
-    Arm arm_a, arm_b;
-    Vec3 start_a, start_b;  // the arms when the step began
-    float start_separation = 0;
     Vec3 r_a, r_b;          // now, to the common point
     float separation = 0;   // now
     Vec3 turn_a, turn_b;    // r x n: torque of a unit normal impulse
@@ -25,6 +22,14 @@ struct PointRow {
     float normal_mass = 0;  // 1 / K(n)
     // 1 / the largest K across n: a step that never overshoots, in any direction.
     float tangent_mass = 0;
+    bool alike_across = false;  // K is the same in every direction across n
+};
+
+// Where a point was when the step began; apart from the row, since no sweep looks at it.
+struct PointStart {
+    Arm arm_a, arm_b;
+    Vec3 start_a, start_b;  // the arms
+    float start_separation = 0;
 };
 
 struct ContactRows {
@@ -41,23 +46,38 @@ struct ContactRows {
     float rolling_mass = 0;   // 1 / the largest rotational response across n
     float spinning_mass = 0;  // 1 / the rotational response about n
     int point_count = 0;
-    std::array<PointRow, 4> points;
     // How a unit normal impulse at point j changes the normal velocity at point i.
     std::array<std::array<float, 4>, 4> coupling = {};
+    std::array<PointRow, 4> points;
+    std::array<PointStart, 4> starts;
 };
 
-// One row set a touching contact, in the problem's order.
-void prepare_rows(const StepProblem& problem, std::vector<ContactRows>& rows);
+// Room for so many elements, which stays: a method that works on one group of islands after the
+// other would else fill in the larger group's anew each time.
+template <class Array>
+void make_room(Array& array, std::size_t count) {
+    if (array.size() < count) array.resize(count);
+}
+
+// One row set a contact, in the order of these places in StepProblem::contacts.
+void prepare_rows(const StepProblem& problem, std::span<const std::uint32_t> contacts,
+                  std::span<ContactRows> rows);
 
 // Response of every body at its present orientation.
 void find_responses(const StepProblem& problem, std::vector<Response>& responses);
 
-// Arms, separations and masses at the bodies' present poses.
+// Arms, separations and the masses along n at the bodies' present poses.
+void follow_bodies(const StepProblem& problem, std::span<const Response> responses,
+                   ContactRows& row);
+// The masses that friction works with, from the row's arms as they are.
+void find_friction_masses(std::span<const Response> responses, ContactRows& row);
+// Both, for every row.
 void refresh_rows(const StepProblem& problem, std::span<const Response> responses,
                   std::span<ContactRows> rows);
 
 // s at the bodies' present poses. Exact for any rotation: from the arms, never from positions.
-inline float find_separation(const PointRow& p, Vec3 n, const BodyMotion& a, const BodyMotion& b) {
+inline float find_separation(const PointStart& p, Vec3 n, const BodyMotion& a,
+                             const BodyMotion& b) {
     const Vec3 moved_a = a.displacement + (find_arm(p.arm_a, a.rotation) - p.start_a);
     const Vec3 moved_b = b.displacement + (find_arm(p.arm_b, b.rotation) - p.start_b);
     return p.start_separation + dot(n, moved_b - moved_a);
@@ -90,13 +110,6 @@ inline void apply_impulse(BodyMotion& a, const Response& response_a, Vec3 r_a, B
     push_body(b, response_b, 1, impulse, response_b.inverse_inertia * cross(r_b, impulse));
 }
 
-// Equal and opposite turning impulses.
-inline void apply_twist(BodyMotion& a, const Response& response_a, BodyMotion& b,
-                        const Response& response_b, Vec3 twist) {
-    push_body(a, response_a, -1, {}, response_a.inverse_inertia * twist);
-    push_body(b, response_b, 1, {}, response_b.inverse_inertia * twist);
-}
-
 inline Vec3 without_normal(Vec3 v, Vec3 n) { return v - dot(v, n) * n; }
 
 // v, shortened to `limit` where it is longer: friction's circle.
@@ -111,10 +124,6 @@ inline Vec3 clamp_length(Vec3 v, float limit) {
 // to rest level. `loads` becomes l, `velocities` what is left.
 void solve_normals(const ContactRows& rows, float softness, std::array<float, 4>& velocities,
                    std::array<float, 4>& loads);
-
-// Changes the two bodies' velocities by normal impulses, one at each point.
-void push_apart(const ContactRows& row, const std::array<float, 4>& impulses, BodyMotion& a,
-                BodyMotion& b, const Response& response_a, const Response& response_b);
 
 // Four points on one face share a load in many ways that push and turn a body alike. Takes from
 // `loads` the part that does nothing, as far as none becomes negative: the even sharing, which is

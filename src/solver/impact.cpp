@@ -34,11 +34,17 @@ float rebound_speed(float u, float s, float a, float h, float e) {
     return max(0, 0.5f * (square_root(under_root) - h * a));
 }
 
+void ImpactSolver::choose(std::span<const ContactRows> rows) {
+    bouncing_.clear();
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+        if (rows[k].restitution > 0) bouncing_.push_back(std::uint32_t(k));
+    }
+}
+
 bool ImpactSolver::collect(const StepProblem& problem, std::span<const ContactRows> rows, float h) {
     strikes_.clear();
-    for (std::size_t k = 0; k < rows.size(); ++k) {
+    for (const std::uint32_t k : bouncing_) {
         const ContactRows& row = rows[k];
-        if (row.restitution == 0) continue;
         const BodyMotion& a = problem.motions[row.body_a];
         const BodyMotion& b = problem.motions[row.body_b];
         Strike strike;
@@ -58,7 +64,7 @@ bool ImpactSolver::collect(const StepProblem& problem, std::span<const ContactRo
             any = true;
         }
         if (!any) continue;
-        strike.row = std::uint32_t(k);
+        strike.row = k;
         strikes_.push_back(strike);
     }
     return !strikes_.empty();

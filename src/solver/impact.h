@@ -28,6 +28,9 @@ namespace cairn {
 
 class ImpactSolver {
 public:
+    // Once a step: which of the rows may bounce.
+    void choose(std::span<const ContactRows> rows);
+    bool any_may_bounce() const { return !bouncing_.empty(); }
     // Changes velocities only. Impulses are added to the contacts' reports, not to what warm
     // starting uses.
     void resolve(const StepProblem& problem, std::span<const Response> responses,
@@ -62,6 +65,7 @@ private:
                      std::span<const ContactRows> rows);
     void report(const StepProblem& problem, std::span<const ContactRows> rows) const;
 
+    std::vector<std::uint32_t> bouncing_;  // rows
     std::vector<Strike> strikes_;
     std::vector<Work> works_;
 };

@@ -126,7 +126,7 @@ void build_card_house(const Setup& setup, Sheet& sheet) {
 constexpr std::string_view cards_creep =
     "Ten sweeps of Gauss-Seidel, to and fro, leave 0.80 of the slowest error of ten contacts in "
     "series (0.978 a sweep), and friction bounded by loads that are off lets the cards creep: the "
-    "crown falls after 0.9 s at 1/60 and 3.4 s at 1/240. With 160 iterations it stands for 20 s.";
+    "crown falls after 1 s at 1/60 and 3 s at 1/240. With 160 iterations it stands for 20 s.";
 
 }  // namespace
 

@@ -39,7 +39,9 @@ public:
         std::vector<Response> responses;
         find_responses(problem, responses);
         refresh_rows(problem, responses, rows_);
-        ImpactSolver().resolve(problem, responses, rows_, 1.0f / 60);
+        ImpactSolver impacts;
+        impacts.choose(rows_);
+        impacts.resolve(problem, responses, rows_, 1.0f / 60);
     }
 
     double kinetic_energy() const {
@@ -70,8 +72,8 @@ private:
         row.restitution = 0.6f;
         row.point_count = int(arms_b.size());
         for (std::size_t i = 0; i < arms_b.size(); ++i) {
-            row.points[i].arm_a.offset = row.points[i].start_a = arm_a;
-            row.points[i].arm_b.offset = row.points[i].start_b = arms_b[i];
+            row.starts[i].arm_a.offset = row.starts[i].start_a = arm_a;
+            row.starts[i].arm_b.offset = row.starts[i].start_b = arms_b[i];
         }
         contacts_.emplace_back();
     }

@@ -28,9 +28,12 @@
 
 #include <vector>
 
+#include "base/large_array.h"
 #include "solver/contact_rows.h"
 #include "solver/first_guess.h"
 #include "solver/impact.h"
+#include "solver/row_sweeps.h"
+#include "solver/swept_bodies.h"
 
 namespace cairn {
 
@@ -62,26 +65,56 @@ private:
         }
     };
 
-    void load_impulses(const StepProblem& problem, float h);
-    void warm_start(const StepProblem& problem);
-    void apply(const StepProblem& problem, const ContactRows& row, const Impulses& impulses);
-    void solve(const StepProblem& problem, float h);
-    static float square_in_joules(const ContactRows& row, const Impulses& impulses);
-    void accelerate(const StepProblem& problem, float beta);
-    void solve_velocities(const StepProblem& problem, float h, bool backward);
-    static void solve_normal_rows(const ContactRows& row, float inverse_h, Impulses& sum,
-                                  BodyMotion& a, BodyMotion& b, const Response& response_a,
-                                  const Response& response_b);
-    void correct_positions(const StepProblem& problem);
-    void store_impulses(const StepProblem& problem, float h);
+    // How the sums move on between two sweeps.
+    struct Extrapolation {
+        float beta = 0;
+        float squared = 0;  // of the last sweep, in J
+        bool follows_sweep = false;
+    };
+    // What a row set carries through a substep: the sums, what the last sweep changed of them, and
+    // the direction in which they move on between two sweeps.
+    struct RowState {
+        Impulses sum, change, direction;
+        float remembered = 0;              // total normal force when the substep began, N
+        std::array<float, 4> excess = {};  // overlap beyond the slop, m, before corrections
+    };
+    // A body's velocity before the last sweep, and its direction.
+    struct Course {
+        Vec3 v, w;
+        Vec3 direction_v, direction_w;
+    };
 
-    std::vector<ContactRows> rows_;
-    // One entry a row set: the sums of the substep, what the last sweep changed, and the direction
-    // in which the sums move on between two sweeps.
-    std::vector<Impulses> accumulated_, changes_, directions_;
+    void begin_substep(const StepProblem& problem, float h);
+    void solve(const StepProblem& problem, float h);
+    void move_bodies(const StepProblem& problem, float h);
+    Extrapolation choose_extrapolation(const Extrapolation& last) const;
+    static float square_in_joules(const ContactRows& row, const Impulses& impulses);
+    void extrapolate_body(std::uint32_t body, float beta);
+
+    // Of one row set, k.
+    void recall(const StepProblem& problem, std::size_t k, float h);
+    void warm_start(const StepProblem& problem, std::size_t k, float h);
+    void solve_row(std::size_t k, float h, const Extrapolation& last);
+    static void rub_points(const ContactRows& row, Impulses& sum, SweptPair& pair);
+    static void rub_turning(const ContactRows& row, Impulses& sum, SweptPair& pair);
+    static void solve_normal_rows(const ContactRows& row, float inverse_h, Impulses& sum,
+                                  SweptPair& pair);
+    void measure_overlap(const StepProblem& problem, std::size_t k);
+    bool correct_row(std::size_t k);
+    void store_impulses(const StepProblem& problem, std::size_t k, float h);
+
+    RowSweeps sweeps_;
+    // One entry a row set, and perhaps some that are of no meaning.
+    std::size_t row_count_ = 0;
+    LargeArray<ContactRows> rows_;
+    LargeArray<RowState> states_;
+    LargeArray<FirstGuess::Bearing> bearings_;  // what it is guessed to bear to begin with
+    LargeArray<float> squares_;                 // of what the last sweep changed, in J
+    // One entry a body, likewise.
     std::vector<Response> responses_;
-    std::vector<float> loads_, remembered_;  // total normal impulse of each row set
-    std::vector<FirstGuess::Bearing> bearings_;
+    LargeArray<SweptBody> bodies_;
+    LargeArray<Course> courses_;
+    LargeArray<Correction> corrections_;
     FirstGuess first_guess_;
     ImpactSolver impacts_;
 };

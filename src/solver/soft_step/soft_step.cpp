@@ -241,9 +241,9 @@ void SoftStep::choose_bouncing(const StepProblem& problem) {
     for (std::size_t k = 0; k < problem.active.size(); ++k) {
         if (rows_.links()[k].bounces) may_bounce_.push_back(problem.active[k]);
     }
-    StepProblem some = problem;
-    some.active = may_bounce_;
-    prepare_rows(some, bouncing_);
+    bouncing_.resize(may_bounce_.size());
+    prepare_rows(problem, may_bounce_, bouncing_);
+    impacts_.choose(bouncing_);
 }
 
 void SoftStep::resolve_impacts(const StepProblem& problem, float h) {

@@ -2,6 +2,8 @@
 
 #include "solver/xpbd/xpbd.h"
 
+#include <atomic>
+
 #include "integrate/integrate.h"
 
 namespace cairn {
@@ -33,188 +35,268 @@ constexpr float stirring_share = 0.1f;
 constexpr int never = -2;
 // Sweeps of friction over the points of one manifold.
 constexpr int friction_sweeps = 2;
+// Radians that a body may turn before the masses of its contacts' friction are found anew: they
+// only say how far a step of friction goes, and a tenth more or less overshoots nothing.
+constexpr float farthest_turn = 0.1f;
 
 }  // namespace
 
 void Xpbd::advance(const StepProblem& problem) {
     const auto h = float(problem.dt / problem.substeps);
-    prepare_rows(problem, rows_);
-    recall(problem, h);
+    begin_step(problem, h);
     for (int substep = 0; substep < problem.substeps; ++substep) {
-        find_responses(problem, responses_);
-        refresh_rows(problem, responses_, rows_);
-        impacts_.resolve(problem, responses_, rows_, h);
-        multipliers_.assign(rows_.size(), {});
-        corrections_.assign(problem.motions.size(), {});
-        predict(problem, h);
-        measure(problem, h);
-        for (int iteration = 0; iteration < problem.iterations; ++iteration) {
-            correct_positions(problem, h);
-        }
-        derive_velocities(problem, h);
+        predict(problem, h, substep == 0);
+        correct_positions(problem, h);
         solve_velocities(problem, h);
-        store_impulses(problem, h, substep == 0);
     }
+    const float share = 1.0f / float(problem.substeps);
+    auto end = [&](std::size_t k) {
+        hold(k);
+        store_impulses(problem, k, h, share);
+    };
+    sweeps_.add_rows(end);
+    auto store = [&](std::size_t k) { store_velocity(problem, problem.moving[k]); };
+    sweeps_.add_bodies(problem.moving.size(), store);
+    sweeps_.run(problem);
 }
 
-void Xpbd::recall(const StepProblem& problem, float h) {
-    held_.assign(rows_.size(), {});
-    for (std::size_t k = 0; k < rows_.size(); ++k) {
-        Contact& contact = problem.contacts[rows_[k].contact];
-        Held& held = held_[k];
-        for (std::size_t i = 0; i < std::size_t(rows_[k].point_count); ++i) {
-            // A corner that swung in while another point was the contact: no motion that the
-            // corrections have seen made this overlap, so no more may they undo it at once.
-            if (contact.points[i].normal_force == 0)
-                contact.first_overlap = max(contact.first_overlap, -contact.points[i].separation);
-            held.friction[i] = (h * h) * contact.points[i].friction_force;
-            held.load += (h * h) * contact.points[i].normal_force;
-        }
-        held.load_before = held.load;
-    }
+void Xpbd::begin_step(const StepProblem& problem, float h) {
+    sweeps_.order_rows(problem, RowOrder::Colours);
+    const std::size_t row_count = sweeps_.contacts().size();
+    make_room(rows_, row_count);
+    make_room(multipliers_, row_count);
+    make_room(held_, row_count);
+    make_room(totals_, row_count);
+    make_room(bodies_, problem.motions.size());
+    make_room(corrections_, problem.motions.size());
+    make_room(stirred_in_, problem.motions.size());
+    make_room(courses_, problem.motions.size());
+    prepare_rows(problem, sweeps_.contacts(), rows_);
+    impacts_.choose(std::span(rows_).first(row_count));
+    find_responses(problem, responses_);
+    auto load = [&](std::size_t i) {
+        courses_[i] = {.known_rotation = problem.motions[i].rotation};
+        bodies_[i] = make_swept(problem.motions[i], responses_[i]);
+        corrections_[i] = {};
+        stirred_in_[i] = never;
+    };
+    sweeps_.add_bodies(problem.motions.size(), load);
+    auto begin = [&](std::size_t k) {
+        recall(problem, k, h);
+        follow_bodies(problem, responses_, rows_[k]);
+        find_friction_masses(responses_, rows_[k]);
+    };
+    sweeps_.add_rows(begin);
+    sweeps_.run(problem);
 }
 
-void Xpbd::predict(const StepProblem& problem, float h) {
-    for (std::size_t k = 0; k < rows_.size(); ++k) {
-        const ContactRows& row = rows_[k];
-        const BodyMotion& a = problem.motions[row.body_a];
-        const BodyMotion& b = problem.motions[row.body_b];
-        for (std::size_t i = 0; i < std::size_t(row.point_count); ++i) {
-            const PointRow& p = row.points[i];
-            multipliers_[k].approach[i] = dot(row.normal, relative_velocity(a, p.r_a, b, p.r_b));
-        }
+void Xpbd::recall(const StepProblem& problem, std::size_t k, float h) {
+    const ContactRows& row = rows_[k];
+    Contact& contact = problem.contacts[row.contact];
+    Held& held = held_[k];
+    held = {};
+    totals_[k] = {};
+    multipliers_[k] = {};
+    held.push_speed = find_push_speed(row, problem);
+    for (std::size_t i = 0; i < std::size_t(row.point_count); ++i) {
+        // A corner that swung in while another point was the contact: no motion that the
+        // corrections have seen made this overlap, so no more may they undo it at once.
+        if (contact.points[i].normal_force == 0)
+            contact.first_overlap = max(contact.first_overlap, -contact.points[i].separation);
+        held.friction[i] = (h * h) * contact.points[i].friction_force;
+        held.load += (h * h) * contact.points[i].normal_force;
     }
-    for (const std::uint32_t i : problem.moving) {
+    held.load_before = held.load;
+    held.first_overlap = contact.first_overlap;
+}
+
+// From the last substep's poses to where the bodies come without the normals.
+void Xpbd::predict(const StepProblem& problem, float h, bool first) {
+    auto store = [&](std::size_t k) { store_velocity(problem, problem.moving[k]); };
+    if (!first) sweeps_.add_bodies(problem.moving.size(), store);
+    auto begin = [&](std::size_t k) {
+        if (!first) hold(k);
+        begin_row(problem, k);
+    };
+    sweeps_.add_rows(begin);
+    if (impacts_.any_may_bounce()) {
+        sweeps_.run(problem);
+        impacts_.resolve(problem, responses_, rows_, h);
+    }
+    auto approach = [&](std::size_t k) { find_approach(problem, k); };
+    if (impacts_.any_may_bounce()) sweeps_.add_rows(approach);
+    auto accelerate = [&](std::size_t k) {
+        const std::uint32_t i = problem.moving[k];
         integrate_velocity(problem.motions[i], problem.inertias[i], problem.drives[i],
                            responses_[i], problem.gravity, h);
+        bodies_[i].v = problem.motions[i].linear_velocity;
+        bodies_[i].w = problem.motions[i].angular_velocity;
+    };
+    sweeps_.add_bodies(problem.moving.size(), accelerate);
+    auto warm = [&](std::size_t k) { warm_start(k, h); };
+    sweeps_.add_sweep(warm);
+    auto move = [&](std::size_t k) { move_body(problem, problem.moving[k], h); };
+    sweeps_.add_bodies(problem.moving.size(), move);
+    sweeps_.run(problem);
+}
+
+// To the predicted pose, and how the body answers there.
+void Xpbd::move_body(const StepProblem& problem, std::uint32_t i, float h) {
+    store_velocity(problem, i);
+    BodyMotion& motion = problem.motions[i];
+    integrate_pose(motion, problem.inertias[i], problem.drives[i], h);
+    if (problem.inertias[i].inverse_mass > 0)
+        responses_[i] = find_response(problem.inertias[i], problem.drives[i], motion.rotation);
+    bodies_[i] = make_swept(motion, responses_[i]);
+    corrections_[i] = {};
+    stirred_in_[i] = never;
+    Course& course = courses_[i];
+    const Quat turned = motion.rotation * conjugate(course.known_rotation);
+    const float sine = square(turned.x) + square(turned.y) + square(turned.z);
+    course.turned_far = sine > square(0.5f * farthest_turn);
+    if (course.turned_far) course.known_rotation = motion.rotation;
+}
+
+void Xpbd::begin_row(const StepProblem& problem, std::size_t k) {
+    ContactRows& row = rows_[k];
+    const BodyMotion& a = problem.motions[row.body_a];
+    const BodyMotion& b = problem.motions[row.body_b];
+    for (std::size_t i = 0; i < std::size_t(row.point_count); ++i) {
+        row.points[i].separation = find_separation(row.starts[i], row.normal, a, b);
     }
-    warm_start(problem, h);
-    for (const std::uint32_t i : problem.moving) {
-        integrate_pose(problem.motions[i], problem.inertias[i], problem.drives[i], h);
+    multipliers_[k] = {};
+    find_approach(problem, k);
+}
+
+void Xpbd::find_approach(const StepProblem& problem, std::size_t k) {
+    const ContactRows& row = rows_[k];
+    const BodyMotion& a = problem.motions[row.body_a];
+    const BodyMotion& b = problem.motions[row.body_b];
+    for (std::size_t i = 0; i < std::size_t(row.point_count); ++i) {
+        const PointRow& p = row.points[i];
+        multipliers_[k].approach[i] = dot(row.normal, relative_velocity(a, p.r_a, b, p.r_b));
     }
 }
 
-void Xpbd::warm_start(const StepProblem& problem, float h) {
-    for (std::size_t k = 0; k < rows_.size(); ++k) {
-        const ContactRows& row = rows_[k];
-        const Held& held = held_[k];
-        // A steady load's friction is the right one; that of a shock, carried on, would feed the
-        // normals that answer its torque, and they it, until a heap throws a body out.
-        const float larger = max(held.load, held.load_before);
-        if (!(larger > 0)) continue;
-        const float steady = min(held.load, held.load_before) / larger;
-        Multipliers& sum = multipliers_[k];
-        for (std::size_t i = 0; i < std::size_t(row.point_count); ++i) {
-            const PointRow& p = row.points[i];
-            sum.friction[i] = steady * without_normal(held.friction[i], row.normal);
-            apply_impulse(problem.motions[row.body_a], responses_[row.body_a], p.r_a,
-                          problem.motions[row.body_b], responses_[row.body_b], p.r_b,
-                          (1.0f / h) * sum.friction[i]);
-        }
+void Xpbd::warm_start(std::size_t k, float h) {
+    const ContactRows& row = rows_[k];
+    const Held& held = held_[k];
+    // A steady load's friction is the right one; that of a shock, carried on, would feed the
+    // normals that answer its torque, and they it, until a heap throws a body out.
+    const float larger = max(held.load, held.load_before);
+    if (!(larger > 0)) return;
+    const float steady = min(held.load, held.load_before) / larger;
+    Multipliers& sum = multipliers_[k];
+    SweptPair pair(bodies_, row);
+    for (std::size_t i = 0; i < std::size_t(row.point_count); ++i) {
+        sum.friction[i] = steady * without_normal(held.friction[i], row.normal);
+        pair.push(row.points[i], (1.0f / h) * sum.friction[i]);
     }
-}
-
-void Xpbd::measure(const StepProblem& problem, float h) {
-    for (std::size_t k = 0; k < rows_.size(); ++k) {
-        const ContactRows& row = rows_[k];
-        Contact& contact = problem.contacts[row.contact];
-        const BodyMotion& a = problem.motions[row.body_a];
-        const BodyMotion& b = problem.motions[row.body_b];
-        if (contact.first_overlap > 0) {
-            contact.first_overlap =
-                max(0, contact.first_overlap - h * find_push_speed(row, problem));
-        }
-        const float bearable = max(contact.first_overlap, slop_share * row.size);
-        for (std::size_t i = 0; i < std::size_t(row.point_count); ++i) {
-            const float s = find_separation(row.points[i], row.normal, a, b);
-            const float borne = clamp(-row.points[i].separation, 0, bearable);
-            multipliers_[k].separation[i] = s + borne;
-        }
-    }
+    pair.store(bodies_, row);
 }
 
 void Xpbd::correct_positions(const StepProblem& problem, float h) {
-    const float compliance = problem.contact_compliance / (h * h);
     // Always in the same direction: one sweep leaves a residue, which is at rest only if it is the
     // same each time.
-    for (std::size_t k = 0; k < rows_.size(); ++k) {
-        const ContactRows& row = rows_[k];
-        Multipliers& sum = multipliers_[k];
-        Correction& a = corrections_[row.body_a];
-        Correction& b = corrections_[row.body_b];
-        const Response& response_a = responses_[row.body_a];
-        const Response& response_b = responses_[row.body_b];
-        const Vec3 n = row.normal;
-        // C of all the points together, then the multipliers that bring none below zero.
-        std::array<float, 4> c = {};
-        const float linear = dot(n, b.linear - a.linear);
-        for (std::size_t i = 0; i < std::size_t(row.point_count); ++i) {
-            const PointRow& p = row.points[i];
-            c[i] = sum.separation[i] + linear + dot(p.turn_b, b.angular) - dot(p.turn_a, a.angular);
-        }
-        const std::array<float, 4> before = sum.normal;
-        solve_normals(row, compliance, c, sum.normal);
-        sum.gap = c;
-        float total = 0;
-        Vec3 spin_a, spin_b;
-        for (std::size_t i = 0; i < std::size_t(row.point_count); ++i) {
-            const PointRow& p = row.points[i];
-            const float change = sum.normal[i] - before[i];
-            spin_a += change * p.spin_a;
-            spin_b += change * p.spin_b;
-            total += change;
-        }
-        if (is_pushed(response_a)) {
-            a.linear -= multiply(response_a.inverse_mass, total * n);
-            a.angular -= spin_a;
-        }
-        if (is_pushed(response_b)) {
-            b.linear += multiply(response_b.inverse_mass, total * n);
-            b.angular += spin_b;
-        }
+    const float compliance = problem.contact_compliance / (h * h);
+    auto first = [&](std::size_t k) {
+        measure(problem, k, h);
+        correct_row(k, compliance);
+    };
+    auto next = [&](std::size_t k) { correct_row(k, compliance); };
+    for (int iteration = 0; iteration < problem.iterations; ++iteration) {
+        if (iteration == 0)
+            sweeps_.add_sweep(first);
+        else
+            sweeps_.add_sweep(next);
+    }
+    auto derive = [&](std::size_t k) { derive_velocity(problem, problem.moving[k], h); };
+    sweeps_.add_bodies(problem.moving.size(), derive);
+    sweeps_.run(problem);
+}
+
+// The row at the predicted poses: arms and inertias as they are where the corrections act. Those of
+// the substep's beginning would change w by other than what the impulse's torque is worth, and a
+// body that spins fast would take energy from it.
+void Xpbd::measure(const StepProblem& problem, std::size_t k, float h) {
+    ContactRows& row = rows_[k];
+    float& first_overlap = held_[k].first_overlap;
+    if (first_overlap > 0) first_overlap = max(0, first_overlap - h * held_[k].push_speed);
+    const float bearable = max(first_overlap, slop_share * row.size);
+    std::array<float, 4> borne = {};
+    for (std::size_t i = 0; i < std::size_t(row.point_count); ++i) {
+        borne[i] = clamp(-row.points[i].separation, 0, bearable);
+    }
+    follow_bodies(problem, responses_, row);
+    if (courses_[row.body_a].turned_far || courses_[row.body_b].turned_far)
+        find_friction_masses(responses_, row);
+    for (std::size_t i = 0; i < std::size_t(row.point_count); ++i) {
+        multipliers_[k].separation[i] = row.points[i].separation + borne[i];
     }
 }
 
-void Xpbd::derive_velocities(const StepProblem& problem, float h) {
+void Xpbd::correct_row(std::size_t k, float compliance) {
+    const ContactRows& row = rows_[k];
+    Multipliers& sum = multipliers_[k];
+    // C of all the points together, then the multipliers that bring none below zero.
+    std::array<float, 4> c =
+        find_corrected(row, corrections_[row.body_a], corrections_[row.body_b]);
+    for (std::size_t i = 0; i < std::size_t(row.point_count); ++i) c[i] += sum.separation[i];
+    std::array<float, 4> changes = sum.normal;
+    solve_normals(row, compliance, c, sum.normal);
+    sum.gap = c;
+    for (std::size_t i = 0; i < 4; ++i) changes[i] = sum.normal[i] - changes[i];
+    correct_apart(row, changes, bodies_, corrections_);
+}
+
+void Xpbd::derive_velocity(const StepProblem& problem, std::uint32_t i, float h) {
     const float inverse_h = 1.0f / h;
-    for (const std::uint32_t i : problem.moving) {
-        const Correction& correction = corrections_[i];
-        if (correction.linear == Vec3{} && correction.angular == Vec3{}) continue;
-        BodyMotion& motion = problem.motions[i];
-        motion.displacement += correction.linear;
-        motion.rotation = turn(motion.rotation, correction.angular);
-        motion.linear_velocity += inverse_h * correction.linear;
-        motion.angular_velocity += inverse_h * correction.angular;
-    }
+    const Correction& correction = corrections_[i];
+    if (correction.linear == Vec3{} && correction.angular == Vec3{}) return;
+    BodyMotion& motion = problem.motions[i];
+    motion.displacement += correction.linear;
+    motion.rotation = turn(motion.rotation, correction.angular);
+    bodies_[i].v = motion.linear_velocity + inverse_h * correction.linear;
+    bodies_[i].w = motion.angular_velocity + inverse_h * correction.angular;
+}
+
+void Xpbd::store_velocity(const StepProblem& problem, std::uint32_t i) {
+    problem.motions[i].linear_velocity = bodies_[i].v;
+    problem.motions[i].angular_velocity = bodies_[i].w;
 }
 
 void Xpbd::solve_velocities(const StepProblem& problem, float h) {
-    stirred_in_.assign(problem.motions.size(), never);
-    for (std::size_t k = 0; k < rows_.size(); ++k) solve_velocity(problem, k, h, 0);
-    bool stirs = true;
-    for (int sweep = 1; sweep <= most_further_sweeps && stirs; ++sweep) {
-        stirs = false;
-        for (std::size_t i = 0; i < rows_.size(); ++i) {
-            const std::size_t k = sweep % 2 == 0 ? i : rows_.size() - 1 - i;
+    std::atomic<bool> stirs = false;
+    int sweep = 0;
+    auto solve = [&](std::size_t k) {
+        if (sweep > 0) {
             const bool meets_stirred = stirred_in_[rows_[k].body_a] >= sweep - 1 ||
                                        stirred_in_[rows_[k].body_b] >= sweep - 1;
-            if (meets_stirred) stirs = solve_velocity(problem, k, h, sweep) || stirs;
+            if (!meets_stirred) return;
         }
-    }
-    for (std::size_t k = 0; k < rows_.size(); ++k) {
-        const Multipliers& sum = multipliers_[k];
-        float load = 0;
-        for (const float normal : sum.normal) load += normal;
-        held_[k] = {sum.friction, load, held_[k].load};
+        if (solve_velocity(problem, k, h, sweep)) stirs.store(true, std::memory_order_relaxed);
+    };
+    for (; sweep <= most_further_sweeps; ++sweep) {
+        stirs.store(false, std::memory_order_relaxed);
+        sweeps_.add_sweep(solve, sweep % 2 == 1);
+        sweeps_.run(problem);
+        if (!stirs.load(std::memory_order_relaxed)) break;
     }
 }
 
 bool Xpbd::solve_velocity(const StepProblem& problem, std::size_t k, float h, int sweep) {
     const ContactRows& row = rows_[k];
-    const float change = quiet_normals(problem, k, h);
-    rub_points(problem, k, h);
-    if (row.rolling_friction > 0 || row.spinning_friction > 0) rub_turning(problem, k, h);
-    if (!(change > stirring_share * find_push_speed(row, problem))) return false;
+    Multipliers& sum = multipliers_[k];
+    // Nothing presses and nothing rubbed.
+    if (sum.normal == std::array<float, 4>{} && sum.friction == std::array<Vec3, 4>{} &&
+        sum.rolling == Vec3{} && sum.spinning == 0)
+        return false;
+    SweptPair pair(bodies_, row);
+    const float change = quiet_normals(row, sum, h, pair);
+    rub_points(row, sum, h, pair);
+    if (row.rolling_friction > 0 || row.spinning_friction > 0) rub_turning(row, sum, h, pair);
+    pair.store(bodies_, row);
+    if (!(change > stirring_share * held_[k].push_speed)) return false;
     // What nothing moves passes nothing on.
     for (const std::uint32_t body : {row.body_a, row.body_b}) {
         if (problem.inertias[body].inverse_mass > 0) stirred_in_[body] = sweep;
@@ -222,24 +304,19 @@ bool Xpbd::solve_velocity(const StepProblem& problem, std::size_t k, float h, in
     return true;
 }
 
-float Xpbd::quiet_normals(const StepProblem& problem, std::size_t k, float h) {
-    const ContactRows& row = rows_[k];
-    Multipliers& sum = multipliers_[k];
-    BodyMotion& a = problem.motions[row.body_a];
-    BodyMotion& b = problem.motions[row.body_b];
+float Xpbd::quiet_normals(const ContactRows& row, Multipliers& sum, float h, SweptPair& pair) {
     if (sum.normal == std::array<float, 4>{}) return 0;
-    std::array<float, 4> excess = {};
+    const float inverse_h = 1.0f / h;
+    std::array<float, 4> excess = pair.normal_velocities(row);
     std::array<float, 4> impulses = {};
-    const float linear = dot(row.normal, b.linear_velocity - a.linear_velocity);
     for (std::size_t i = 0; i < std::size_t(row.point_count); ++i) {
-        const PointRow& p = row.points[i];
-        const float u =
-            linear + dot(p.turn_b, b.angular_velocity) - dot(p.turn_a, a.angular_velocity);
+        const float u = excess[i];
         // No faster apart than before: what is faster, the push has made. A point that was not
         // pushed may close what is open in one substep.
         const bool pushed = sum.normal[i] > 0;
-        excess[i] = pushed ? u - clamp(u, 0, max(0, sum.approach[i])) : u + max(0, sum.gap[i]) / h;
-        impulses[i] = sum.normal[i] / h;
+        excess[i] =
+            pushed ? u - clamp(u, 0, max(0, sum.approach[i])) : u + max(0, sum.gap[i]) * inverse_h;
+        impulses[i] = sum.normal[i] * inverse_h;
     }
     std::array<float, 4> changes = impulses;
     solve_normals(row, 0, excess, impulses);
@@ -248,92 +325,84 @@ float Xpbd::quiet_normals(const StepProblem& problem, std::size_t k, float h) {
         changes[i] = impulses[i] - changes[i];
         most = max(most, absolute(changes[i]) * row.coupling[i][i]);
     }
-    push_apart(row, changes, a, b, responses_[row.body_a], responses_[row.body_b]);
+    pair.push_apart(row, changes);
     share_evenly(row, impulses);
     for (std::size_t i = 0; i < 4; ++i) sum.normal[i] = h * impulses[i];
     return most;
 }
 
-void Xpbd::rub_points(const StepProblem& problem, std::size_t k, float h) {
-    const ContactRows& row = rows_[k];
-    Multipliers& sum = multipliers_[k];
-    BodyMotion& a = problem.motions[row.body_a];
-    BodyMotion& b = problem.motions[row.body_b];
-    const Response& response_a = responses_[row.body_a];
-    const Response& response_b = responses_[row.body_b];
-    const Vec3 n = row.normal;
+void Xpbd::rub_points(const ContactRows& row, Multipliers& sum, float h, SweptPair& pair) {
     const float inverse_h = 1.0f / h;
     for (std::size_t i = 0; i < std::size_t(row.point_count); ++i) {
         // The bound may have come down since.
-        const PointRow& p = row.points[i];
         const Vec3 allowed = clamp_length(sum.friction[i], row.friction * sum.normal[i]);
         if (allowed == sum.friction[i]) continue;
-        apply_impulse(a, response_a, p.r_a, b, response_b, p.r_b,
-                      inverse_h * (allowed - sum.friction[i]));
+        pair.push(row.points[i], inverse_h * (allowed - sum.friction[i]));
         sum.friction[i] = allowed;
     }
-    for (int sweep = 0; sweep < friction_sweeps; ++sweep) {
+    // One step of a single point's friction is exact where its mass is the same in every direction.
+    const bool is_exact = row.point_count == 1 && row.points[0].alike_across;
+    for (int sweep = 0; sweep < (is_exact ? 1 : friction_sweeps); ++sweep) {
         for (std::size_t i = 0; i < std::size_t(row.point_count); ++i) {
             const PointRow& p = row.points[i];
-            const Vec3 v =
-                without_normal(relative_velocity(a, p.r_a, b, p.r_b), n) + row.surface_velocity;
+            const Vec3 v = without_normal(pair.velocity_at(p), row.normal) + row.surface_velocity;
             const Vec3 total = clamp_length(sum.friction[i] - (h * p.tangent_mass) * v,
                                             row.friction * sum.normal[i]);
-            apply_impulse(a, response_a, p.r_a, b, response_b, p.r_b,
-                          inverse_h * (total - sum.friction[i]));
+            pair.push(p, inverse_h * (total - sum.friction[i]));
             sum.friction[i] = total;
         }
     }
 }
 
-void Xpbd::rub_turning(const StepProblem& problem, std::size_t k, float h) {
-    const ContactRows& row = rows_[k];
-    Multipliers& sum = multipliers_[k];
-    BodyMotion& a = problem.motions[row.body_a];
-    BodyMotion& b = problem.motions[row.body_b];
+void Xpbd::rub_turning(const ContactRows& row, Multipliers& sum, float h, SweptPair& pair) {
     float load = 0;
     for (const float normal : sum.normal) load += normal;
     const Vec3 n = row.normal;
-    const Vec3 w = b.angular_velocity - a.angular_velocity;
+    const Vec3 w = pair.b.w - pair.a.w;
     const Vec3 rolling = clamp_length(sum.rolling - (h * row.rolling_mass) * without_normal(w, n),
                                       row.rolling_friction * load);
     const float most = row.spinning_friction * load;
     const float spinning = clamp(sum.spinning - h * row.spinning_mass * dot(n, w), -most, most);
-    const Vec3 twist = (1.0f / h) * ((rolling - sum.rolling) + (spinning - sum.spinning) * n);
+    pair.twist((1.0f / h) * ((rolling - sum.rolling) + (spinning - sum.spinning) * n));
     sum.rolling = rolling;
     sum.spinning = spinning;
-    apply_twist(a, responses_[row.body_a], b, responses_[row.body_b], twist);
 }
 
-void Xpbd::store_impulses(const StepProblem& problem, float h, bool first) {
-    const float inverse_h = 1.0f / h;
-    const float share = 1.0f / float(problem.substeps);
-    for (std::size_t k = 0; k < rows_.size(); ++k) {
-        const Multipliers& sum = multipliers_[k];
-        Contact& contact = problem.contacts[rows_[k].contact];
-        if (first) {
-            contact.rolling_torque = {};
-            contact.spinning_torque = 0;
-        }
-        for (std::size_t i = 0; i < std::size_t(rows_[k].point_count); ++i) {
-            ContactPoint& point = contact.points[i];
-            if (first) {
-                point.normal_force = 0;
-                point.friction_force = {};
-            }
-            const float normal = inverse_h * sum.normal[i];
-            const Vec3 friction = inverse_h * sum.friction[i];
-            point.normal_impulse += normal;
-            point.friction_impulse += friction;
-            // Mean force of the step: what another method would begin with.
-            point.normal_force += share * inverse_h * normal;
-            point.friction_force += (share * inverse_h) * friction;
-        }
-        contact.rolling_impulse += inverse_h * sum.rolling;
-        contact.spinning_impulse += inverse_h * sum.spinning;
-        contact.rolling_torque += (share * inverse_h * inverse_h) * sum.rolling;
-        contact.spinning_torque += share * inverse_h * inverse_h * sum.spinning;
+// The end of a row's substep.
+void Xpbd::hold(std::size_t k) {
+    const Multipliers& sum = multipliers_[k];
+    Held& held = held_[k];
+    Totals& total = totals_[k];
+    held.friction = sum.friction;
+    held.load_before = held.load;
+    held.load = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+        held.load += sum.normal[i];
+        total.normal[i] += sum.normal[i];
+        total.friction[i] += sum.friction[i];
     }
+    total.rolling += sum.rolling;
+    total.spinning += sum.spinning;
+}
+
+void Xpbd::store_impulses(const StepProblem& problem, std::size_t k, float h, float share) {
+    const float inverse_h = 1.0f / h;
+    // Mean force of the step: what another method would begin with.
+    const float mean = share * inverse_h * inverse_h;
+    const Totals& total = totals_[k];
+    Contact& contact = problem.contacts[rows_[k].contact];
+    for (std::size_t i = 0; i < std::size_t(rows_[k].point_count); ++i) {
+        ContactPoint& point = contact.points[i];
+        point.normal_impulse += inverse_h * total.normal[i];
+        point.friction_impulse += inverse_h * total.friction[i];
+        point.normal_force = mean * total.normal[i];
+        point.friction_force = mean * total.friction[i];
+    }
+    contact.rolling_impulse += inverse_h * total.rolling;
+    contact.spinning_impulse += inverse_h * total.spinning;
+    contact.rolling_torque = mean * total.rolling;
+    contact.spinning_torque = mean * total.spinning;
+    contact.first_overlap = held_[k].first_overlap;
 }
 
 }  // namespace cairn

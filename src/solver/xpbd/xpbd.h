@@ -30,8 +30,11 @@
 
 #include <vector>
 
+#include "base/large_array.h"
 #include "solver/contact_rows.h"
 #include "solver/impact.h"
+#include "solver/row_sweeps.h"
+#include "solver/swept_bodies.h"
 
 namespace cairn {
 
@@ -43,10 +46,6 @@ public:
     void advance(const StepProblem& problem);
 
 private:
-    struct Correction {
-        Vec3 linear;
-        Vec3 angular;
-    };
     // Multipliers of one substep, in kg m (impulse times h), and what they answer.
     struct Multipliers {
         std::array<float, 4> normal = {};
@@ -58,35 +57,65 @@ private:
         std::array<float, 4> approach = {};    // n.v_rel before the substep's forces
     };
 
-    // What the last substep ended with, one entry a row set: friction multipliers, the sum of the
-    // normal ones, and that of the substep before it.
+    // What the last substep ended with: friction multipliers, the sum of the normal ones, and that
+    // of the substep before it; and what goes on through the step.
     struct Held {
         std::array<Vec3, 4> friction = {};
         float load = 0;
         float load_before = 0;
+        float first_overlap = 0;  // see Contact
+        float push_speed = 0;     // m/s at which it is removed
+    };
+    // Sums of the multipliers over the step.
+    struct Totals {
+        std::array<float, 4> normal = {};
+        std::array<Vec3, 4> friction = {};
+        Vec3 rolling;
+        float spinning = 0;
+    };
+    struct Course {
+        Quat known_rotation;      // when the masses of its contacts' friction were found
+        bool turned_far = false;  // since then, when the substep began
     };
 
-    void recall(const StepProblem& problem, float h);
-    void warm_start(const StepProblem& problem, float h);
-    void predict(const StepProblem& problem, float h);
-    void measure(const StepProblem& problem, float h);
+    void begin_step(const StepProblem& problem, float h);
+    void predict(const StepProblem& problem, float h, bool first);
     void correct_positions(const StepProblem& problem, float h);
-    void derive_velocities(const StepProblem& problem, float h);
     void solve_velocities(const StepProblem& problem, float h);
-    // One row set of the velocity pass; whether it changed enough for another sweep.
+
+    // Of one body.
+    void move_body(const StepProblem& problem, std::uint32_t body, float h);
+    void derive_velocity(const StepProblem& problem, std::uint32_t body, float h);
+    void store_velocity(const StepProblem& problem, std::uint32_t body);
+
+    // Of one row set, k.
+    void recall(const StepProblem& problem, std::size_t k, float h);
+    void begin_row(const StepProblem& problem, std::size_t k);
+    void find_approach(const StepProblem& problem, std::size_t k);
+    void warm_start(std::size_t k, float h);
+    void measure(const StepProblem& problem, std::size_t k, float h);
+    void correct_row(std::size_t k, float compliance);
+    // Whether it changed enough for another sweep.
     bool solve_velocity(const StepProblem& problem, std::size_t k, float h, int sweep);
     // Returns the largest change of a point's speed along the normal, m/s.
-    float quiet_normals(const StepProblem& problem, std::size_t k, float h);
-    void rub_points(const StepProblem& problem, std::size_t k, float h);
-    void rub_turning(const StepProblem& problem, std::size_t k, float h);
-    void store_impulses(const StepProblem& problem, float h, bool first);
+    static float quiet_normals(const ContactRows& row, Multipliers& sum, float h, SweptPair& pair);
+    static void rub_points(const ContactRows& row, Multipliers& sum, float h, SweptPair& pair);
+    static void rub_turning(const ContactRows& row, Multipliers& sum, float h, SweptPair& pair);
+    void hold(std::size_t k);
+    void store_impulses(const StepProblem& problem, std::size_t k, float h, float share);
 
-    std::vector<ContactRows> rows_;
-    std::vector<Multipliers> multipliers_;
-    std::vector<Held> held_;
+    RowSweeps sweeps_;
+    // One entry a row set, and perhaps some that are of no meaning.
+    LargeArray<ContactRows> rows_;
+    LargeArray<Multipliers> multipliers_;
+    LargeArray<Held> held_;
+    LargeArray<Totals> totals_;
+    // One entry a body, likewise.
     std::vector<Response> responses_;
-    std::vector<Correction> corrections_;
-    std::vector<int> stirred_in_;  // the sweep of the velocity pass that last stirred the body
+    LargeArray<SweptBody> bodies_;
+    LargeArray<Correction> corrections_;
+    LargeArray<int> stirred_in_;  // the sweep of the velocity pass that last stirred the body
+    LargeArray<Course> courses_;
     ImpactSolver impacts_;
 };
 
