@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <vector>
 
 #include "cairn/cairn.h"
 #include "determinism/pile.h"
@@ -74,6 +75,26 @@ TEST_CASE("fifty cubes on each other stand for a minute where they were put") {
 
 TEST_CASE("twenty cubes bear a top four hundred times as dense for a minute") {
     CHECK(find_worst_drift(20, 400, 60) < 1e-3);
+}
+
+TEST_SUITE("full") {
+    TEST_CASE("a wall of forty layers that never sleeps stands straight for half a minute") {
+        World world = make_ground();
+        WorldSettings settings = world.settings();
+        settings.sleeping = false;
+        (void)world.set_settings(settings);
+        std::vector<BodyId> wall;
+        for (int layer = 0; layer < 40; ++layer) {
+            for (int i = 0; i < 40 - layer; ++i)
+                wall.push_back(
+                    *world.create_body(cube({1.05 * (i + 0.5 * layer), 0.5 + layer, 0})));
+        }
+        for (int step = 0; step < 1800; ++step) (void)world.step(1.0 / 60);
+        double lean = 0;
+        for (const BodyId body : wall) lean = std::max(lean, std::abs(world.position(body).z));
+        CHECK(lean < 1e-3);
+        CHECK(world.position(wall.back()).y > 39.5 - 0.01);
+    }
 }
 
 TEST_CASE("a column that is struck gains less energy than a five-hundredth of what it holds") {

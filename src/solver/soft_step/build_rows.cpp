@@ -90,6 +90,7 @@ void SoftRows::read(const StepProblem& problem, const Contact& contact, std::siz
                  .touching = contact.touching,
                  .turns_with_a = contact.turns_with_a,
                  .turns_with_b = contact.turns_with_b,
+                 .remembered_load = contact.remembered_load,
                  .upright = absolute(dot(contact.normal, up_))};
     edges_[k] = {contact.body_a, contact.body_b, problem.inertias[contact.body_a].inverse_mass > 0,
                  problem.inertias[contact.body_b].inverse_mass > 0};

@@ -35,7 +35,8 @@ public:
         bool bounces = false;
         bool touching = false;  // before the step
         bool turns_with_a = false, turns_with_b = false;
-        float upright = 0;  // the cosine between its normal and gravity, either way
+        float remembered_load = 0;  // what the contact has long borne, N
+        float upright = 0;          // the cosine between its normal and gravity, either way
     };
     void begin_reading(const StepProblem& problem);
     void read(const StepProblem& problem, const Contact& contact, std::size_t k);

@@ -34,7 +34,7 @@ void ExactLoads::prepare(const StepProblem& problem, std::span<const Response> r
     first_.clear();
     row_.assign(1, 0);
     matrix_.clear();
-    if (!find_candidates(problem, rows)) return;
+    if (!any_candidate_) return;
     gather(problem, rows);
     for (const std::uint32_t body : problem.moving) {
         if (level_[body] != 0 || begins_[body] == begins_[body + 1]) continue;
@@ -120,7 +120,7 @@ std::uint32_t ExactLoads::find_root(std::uint32_t body) {
     return body;
 }
 
-bool ExactLoads::find_candidates(const StepProblem& problem, const SoftRows& rows) {
+void ExactLoads::find_candidates(const StepProblem& problem, const SoftRows& rows) {
     sketches_.resize(problem.motions.size());
     for (const std::uint32_t body : problem.moving) sketches_[body] = {.parent = body};
     for (std::size_t k = 0; k < problem.active.size(); ++k) {
@@ -147,12 +147,11 @@ bool ExactLoads::find_candidates(const StepProblem& problem, const SoftRows& row
         sketches_[root].points += link.point_count;
         if (link.upright < steep) sketches_[root].leans = true;
     }
-    bool any = false;
+    any_candidate_ = false;
     for (const std::uint32_t body : problem.moving) {
         const Sketch& all = sketches_[body];
-        any = any || (all.parent == body && is_candidate(all));
+        any_candidate_ = any_candidate_ || (all.parent == body && is_candidate(all));
     }
-    return any;
 }
 
 bool ExactLoads::is_candidate(const Sketch& all) {
@@ -168,7 +167,7 @@ void ExactLoads::gather(const StepProblem& problem, const SoftRows& rows) {
             const Colouring::Edge& edge = rows.edges()[k];
             if (!edge.pushes_a && !edge.pushes_b) continue;
             const std::uint32_t pushed = edge.pushes_a ? edge.body_a : edge.body_b;
-            if (!is_candidate(sketches_[find_root(pushed)])) continue;
+            if (!is_candidate(pushed)) continue;
             if (edge.pushes_a) visit(edge.body_a, std::uint32_t(k));
             if (edge.pushes_b) visit(edge.body_b, std::uint32_t(k));
         }

@@ -24,7 +24,11 @@ namespace cairn {
 
 class ExactLoads {
 public:
-    // Once a step: finds the islands that call for it, and their matrices.
+    // Once a step: looks for the islands that may call for it, by what the rows know of contacts.
+    void find_candidates(const StepProblem& problem, const SoftRows& rows);
+    // Whether a body that can be pushed is of one of those.
+    bool is_candidate(std::uint32_t body) { return is_candidate(sketches_[find_root(body)]); }
+    // Finds those that call for it, and their matrices, from filled rows.
     void prepare(const StepProblem& problem, std::span<const Response> responses, SoftRows& rows);
     // Brings the normal impulses of those islands to where every point moves as its overlap or
     // its gap asks for, and the bodies with them.
@@ -56,9 +60,6 @@ private:
         bool leans = false, is_uneven = false;
     };
     static bool is_candidate(const Sketch& all);
-    // Marks the islands that may call for it, by what a look at their contacts can tell; false
-    // where there are none.
-    bool find_candidates(const StepProblem& problem, const SoftRows& rows);
     std::uint32_t find_root(std::uint32_t body);
     void gather(const StepProblem& problem, const SoftRows& rows);
     void order_island(const StepProblem& problem, std::uint32_t first_body);
@@ -86,6 +87,7 @@ private:
     }
 
     std::vector<Sketch> sketches_;
+    bool any_candidate_ = false;
     // The contacts of each body of a candidate, as lists by place.
     std::vector<std::uint32_t> begins_, members_;
     std::vector<std::uint8_t> seen_;             // by place in active

@@ -15,10 +15,17 @@ namespace {
 // for the step calls for more of them, a stack of unit cubes for one.
 constexpr float sinking_share = 6e-4f;
 constexpr int most_parts = 12;
+// A high wall bends under its own weight, as a column of springs does, and a sweep holds it
+// straight no better than a spring: the stiffer, the shorter the substep. Faces that bear more than
+// so many times the weight of the heavier of their two bodies call for more substeps, in
+// proportion.
+constexpr float straight_height = 12.5f;
+constexpr int most_finer = 8;           // times as many, at most
+constexpr float least_weight = 1e-30f;  // less, N, is none
 // A contact that has just begun has neither friction nor an even load to start from; what bounces
 // is in touch for a part at most, and loses less the shorter that is.
 constexpr int parts_for_sudden = 3;
-// One in so many contacts may call for more parts than it gets.
+// One in so many contacts may call for more than it gets.
 constexpr std::size_t most_unserved = 16;
 // A contact is at rest that closes or opens no faster than gravity makes it in so many steps.
 constexpr float resting_steps = 2;
@@ -52,13 +59,24 @@ FirstGuess::Bearing find_bearing(const StepProblem& problem, const Contact& cont
             .load = load};
 }
 
+// Of as many as each asks for, the number that all but a few of the contacts are content with.
+template <std::size_t Size>
+int find_enough(const std::array<std::size_t, Size>& askers, std::size_t contact_count) {
+    std::size_t enough = Size - 1;
+    std::size_t unserved = askers[enough];
+    while (enough > 1 && unserved * most_unserved <= contact_count) unserved += askers[--enough];
+    return int(enough);
+}
+
 }  // namespace
 
 void SoftStep::advance(const StepProblem& problem) {
     const SoftKernels& kernels = find_soft_kernels(problem.lanes);
-    const auto h = float(problem.dt / problem.substeps);
     read_contacts(problem);
     guess_loads(problem);
+    exact_.find_candidates(problem, rows_);
+    const int substeps = problem.substeps * find_finer(problem);
+    const auto h = float(problem.dt / substeps);
     choose_parts(problem, h);
     const float part = h / float(parts_);
     load_bodies(problem);
@@ -80,7 +98,7 @@ void SoftStep::advance(const StepProblem& problem) {
     auto end_bodies = [&](int begin, int end, int) {
         each(begin, end, [&](std::uint32_t i) { end_substep(problem, i, h); });
     };
-    for (int substep = 0; substep < problem.substeps; ++substep) {
+    for (int substep = 0; substep < substeps; ++substep) {
         if (has_turned_far()) anchor_anew(problem, h);
         resolve_impacts(problem, h);
         add_loop(problem.moving.size(), bodies_a_block, begin_bodies);
@@ -144,7 +162,6 @@ float SoftStep::resting_speed(const StepProblem& problem) {
     return resting_steps * float(problem.dt) * length(problem.gravity);
 }
 
-// As many parts as all but a few of the contacts ask for.
 void SoftStep::choose_parts(const StepProblem& problem, float h) {
     // What a spring of one part's frequency sinks by, over the sinking that is allowed: weight over
     // stiffness, g / omega^2.
@@ -158,10 +175,29 @@ void SoftStep::choose_parts(const StepProblem& problem, float h) {
         while (parts < most_parts && sinking > float(parts * parts) * allowed) ++parts;
         ++askers[std::size_t(parts)];
     }
-    parts_ = most_parts;
-    std::size_t unserved = askers[most_parts];
-    while (parts_ > 1 && unserved * most_unserved <= problem.active.size())
-        unserved += askers[std::size_t(--parts_)];
+    parts_ = find_enough(askers, problem.active.size());
+}
+
+// How many times as many substeps as were asked for hold the heap straight.
+int SoftStep::find_finer(const StepProblem& problem) {
+    std::array<std::size_t, most_finer + 1> askers = {};
+    for (std::size_t k = 0; k < problem.active.size(); ++k) {
+        const FirstGuess::Bearing& bearing = bearings_[k];
+        const Colouring::Edge& edge = rows_.edges()[k];
+        // Where one cannot be pushed it has no mass.
+        const float heavier =
+            max(problem.inertias[bearing.body_a].mass, problem.inertias[bearing.body_b].mass);
+        // What it has long borne: no blow.
+        const float borne = rows_.links()[k].remembered_load + (bearing.load - loads_before_[k]);
+        const float height = borne / max(heavier * length(problem.gravity), least_weight);
+        // Columns are held straight exactly, and what touches at a point or an edge not at all.
+        const bool is_held = rows_.links()[k].point_count >= 3 &&
+                             !exact_.is_candidate(edge.pushes_a ? edge.body_a : edge.body_b);
+        int finer = 1;
+        while (is_held && finer < most_finer && height > float(finer) * straight_height) ++finer;
+        ++askers[std::size_t(finer)];
+    }
+    return find_enough(askers, problem.active.size());
 }
 
 void SoftStep::solve_exactly(const StepProblem& problem, float part, bool pushes) {

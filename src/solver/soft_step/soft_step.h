@@ -1,7 +1,7 @@
 #pragma once
 // Soft step: small substeps, in each of which contacts are first springs, then rigid.
 //
-// One substep of length h:
+// One substep of length h, of which there are more where bodies lie high on each other:
 //   impacts      bounces, before any force acts (solver/impact.h)
 //   velocities   v += h a, w += h I^-1 torque, what a tumbling body's spin makes of w, and the
 //                impulses of the last substep once more
@@ -52,6 +52,7 @@ private:
     void guess_loads(const StepProblem& problem);
     static float resting_speed(const StepProblem& problem);
     static bool meets(const StepProblem& problem, const FirstGuess::Bearing& bearing);
+    int find_finer(const StepProblem& problem);
     void choose_parts(const StepProblem& problem, float h);
     void load_bodies(const StepProblem& problem);
     void choose_bouncing(const StepProblem& problem);
