@@ -52,7 +52,8 @@ private:
     };
 
     static bool is_alike(const Value& a, const Value& b) {
-        return std::memcmp(&a, &b, sizeof(Value)) == 0;
+        const void *bytes_a = &a, *bytes_b = &b;
+        return std::memcmp(bytes_a, bytes_b, sizeof(Value)) == 0;
     }
     // Fowler, Noll and Vo's hash, a word at a time.
     static std::uint64_t key_of(const Value& value) {
