@@ -8,5 +8,6 @@ function(cairn_target name)
     $<$<CXX_COMPILER_ID:GNU>:-fno-tree-slp-vectorize>
     # libstdc++ 12's stable_sort calls what it has deprecated itself; later clangs lay that to its callers.
     $<$<AND:$<CXX_COMPILER_ID:Clang>,$<VERSION_GREATER_EQUAL:$<CXX_COMPILER_VERSION>,15>>:-Wno-deprecated-declarations>
-    $<$<CXX_COMPILER_ID:GNU>:-Wdouble-promotion> -Wfloat-conversion -Wnon-virtual-dtor -Werror)
+    $<$<CXX_COMPILER_ID:GNU>:-Wdouble-promotion>
+    $<$<CXX_COMPILER_ID:Clang>:-Wreserved-identifier> -Wfloat-conversion -Wnon-virtual-dtor -Werror)
 endfunction()

@@ -11,6 +11,7 @@
 // longer. A seed gives the same worlds on every machine, so a failure, which prints seed, world and
 // step, can be had again with `--seed S --world W`.
 
+#include <algorithm>
 #include <chrono>
 #include <cinttypes>
 #include <cmath>
@@ -76,11 +77,12 @@ Failure inspect(const World& world) {
 
 // Half a second without any change: contacts may only take energy away. Overlaps that a change has
 // made, a body put into others say, may give some back as they part, so the world settles first.
+constexpr int settling_steps = 120, still_steps = 30;
 Failure let_settle(World& world) {
-    for (int step = 0; step < 120; ++step) (void)world.step(dt);
+    for (int step = 0; step < settling_steps; ++step) (void)world.step(dt);
     const double before = world.energy().total;
     const double moving = world.energy().kinetic;
-    for (int step = 0; step < 30; ++step) (void)world.step(dt);
+    for (int step = 0; step < still_steps; ++step) (void)world.step(dt);
     const double gain = world.energy().total - before;
     if (gain > 0.05 * moving + 0.01 * std::abs(before) + 1) return {"energy from nowhere"};
     return inspect(world);
@@ -104,12 +106,14 @@ Failure compare_copy(World& world, const Kind& kind, Dice& dice) {
     return {};
 }
 
-// What a world goes through beside its steps and changes, at this one of them.
-Failure look_closer(World& world, const Kind& kind, int step, Dice& dice) {
+// What a world goes through beside its steps and changes, at this one of them. It is left to settle
+// only where that is over before the time is.
+Failure look_closer(World& world, const Kind& kind, int step, int steps_left, Dice& dice) {
     const int part = step % kind.steps_a_copy;
     if (part == 0) return compare_copy(world, kind, dice);
     if (part == kind.steps_a_copy / 4) return {step_together(world, dice)};
-    if (part == kind.steps_a_copy / 2) return let_settle(world);
+    if (part == kind.steps_a_copy / 2 && steps_left > settling_steps + still_steps)
+        return let_settle(world);
     return {};
 }
 
@@ -132,6 +136,9 @@ void describe(const World& world, const Failure& failure) {
 Failure run_world(const Kind& kind, std::uint64_t seed, int& step, double seconds_left,
                   std::uint64_t& hash) {
     const auto begin = std::chrono::steady_clock::now();
+    const auto spent = [begin] {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    };
     Dice dice(seed);
     World world = make_world(kind, dice);
     change_way(world, dice);
@@ -141,13 +148,14 @@ Failure run_world(const Kind& kind, std::uint64_t seed, int& step, double second
         for (int i = 0; i < changes; ++i) change(world, kind, Dice(dice.next()));
         if (!world.step(dt).ok()) return {"a step was refused"};
         Failure failure = inspect(world);
-        if (failure.what == nullptr) failure = look_closer(world, kind, step, dice);
+        const double left = (step + 1) * (seconds_left / spent() - 1);
+        const auto steps_left = static_cast<int>(std::clamp(left, 0.0, 1e9));
+        if (failure.what == nullptr) failure = look_closer(world, kind, step, steps_left, dice);
         if (failure.what != nullptr) {
             describe(world, failure);
             return failure;
         }
-        const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
-        if (spent.count() > seconds_left) return {};
+        if (spent() > seconds_left) return {};
     }
     hash = 31 * hash + world.state_hash();
     return {};
