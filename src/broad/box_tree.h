@@ -21,7 +21,7 @@
 #include <utility>
 
 #include "base/large_array.h"
-#include "broad/box_node.h"
+#include "broad/box_probe.h"
 
 namespace cairn {
 
@@ -45,6 +45,10 @@ public:
     // visit(id) for every leaf whose box overlaps.
     template <class Visit>
     void query(const Aabb& box, Visit&& visit) const;
+    // visit(id) for every leaf that the probe reaches, those of near nodes first. The visit may
+    // lower the probe's limit.
+    template <class Probe, class Visit>
+    void visit_reached(Probe& probe, Visit&& visit) const;
     // Ids of all leaves, in the order of the tree.
     void list_leaves(LargeArray<std::uint32_t>& ids) const;
 
@@ -127,6 +131,34 @@ void BoxTree::query(const Aabb& box, Visit&& visit) const {
             } else {
                 stack[waiting++] = child;
             }
+        }
+    }
+}
+
+template <class Probe, class Visit>
+void BoxTree::visit_reached(Probe& probe, Visit&& visit) const {
+    if (root_ == none) return;
+    struct Waiting {
+        float entry;
+        std::uint32_t node;
+    };
+    Waiting stack[max_levels * BoxNode::width];
+    int waiting = 0;
+    stack[waiting++] = {0, root_};
+    while (waiting > 0) {
+        const Waiting next = stack[--waiting];
+        // The limit may have come nearer since.
+        if (next.entry > probe.limit) continue;
+        const BoxNode& at = nodes_[next.node];
+        float entry[BoxNode::width];
+        const ReachedSlots reached(probe.find(at, entry), entry);
+        if (at.level > 0) {
+            for (int i = 0; i < reached.count; ++i)
+                stack[waiting++] = {entry[reached.slots[i]], at.child[reached.slots[i]]};
+            continue;
+        }
+        for (int i = reached.count; i-- > 0;) {
+            if (entry[reached.slots[i]] <= probe.limit) visit(at.child[reached.slots[i]]);
         }
     }
 }

@@ -75,6 +75,11 @@ public:
     template <class Visit>
     void query(const Aabb& box, Visit&& visit) const;
 
+    // visit(id) for every id whose fat box the probe reaches, and for every endless one. The visit
+    // may lower the probe's limit (box_probe.h).
+    template <class Probe, class Visit>
+    void visit_reached(Probe& probe, Visit&& visit) const;
+
     // For tests and figures.
     bool is_sound() const;
     const BoxTree& tree(bool moves) const { return trees_[moves]; }
@@ -116,6 +121,17 @@ void TreePairs::query(const Aabb& box, Visit&& visit) const {
             if (overlaps(boxes_[id], box)) visit(id);
         }
     }
+}
+
+template <class Probe, class Visit>
+void TreePairs::visit_reached(Probe& probe, Visit&& visit) const {
+    for (const bool moves : {false, true}) {
+        for (const std::uint32_t id : endless_[moves]) {
+            if (probe.limit < 0) return;
+            visit(id);
+        }
+    }
+    for (const bool moves : {false, true}) trees_[moves].visit_reached(probe, visit);
 }
 
 }  // namespace cairn
