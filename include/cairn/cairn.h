@@ -4,6 +4,7 @@
 #include "cairn/body.h"
 #include "cairn/ids.h"
 #include "cairn/math.h"
+#include "cairn/query.h"
 #include "cairn/report.h"
 #include "cairn/result.h"
 #include "cairn/settings.h"

@@ -7,8 +7,8 @@
 //
 // Every call checks what it is given, in every build. A refused call changes nothing, returns an
 // Error, and tells the error handler if there is one. Questions about an id that is gone answer
-// with zeros and tell the error handler. Not to be called from two threads at once; distinct worlds
-// share nothing.
+// with zeros and tell the error handler. Not to be called from two threads at once, but for the
+// questions of the last section; distinct worlds share nothing.
 
 #include <cstdint>
 #include <functional>
@@ -18,6 +18,7 @@
 
 #include "cairn/body.h"
 #include "cairn/ids.h"
+#include "cairn/query.h"
 #include "cairn/report.h"
 #include "cairn/result.h"
 #include "cairn/settings.h"
@@ -139,6 +140,37 @@ public:
     /// FNV-1a, 64 bits, over the bodies in the order of bodies(), little-endian: position 3 x
     /// binary64, rotation, linear and angular velocity binary32, asleep one byte.
     std::uint64_t state_hash() const;
+
+    // Questions (query.h). Any number of threads may ask at once, while nobody steps or changes the
+    // world. They answer with nothing where what they are given is not finite or makes no sense,
+    // and tell the error handler, on the thread that asked.
+
+    /// What the ray meets first.
+    RayHit cast_ray(const Ray& ray, const QueryFilter& filter = {}) const;
+    /// Whether it meets anything: less work.
+    bool any_hit(const Ray& ray, const QueryFilter& filter = {}) const;
+    /// All that it meets, by distance, each shape once, where the ray comes to it.
+    std::vector<RayHit> all_hits(const Ray& ray, const QueryFilter& filter = {}) const;
+    /// visit(hit) for what it meets, in any order; what it returns is the length of the ray from
+    /// there on: hit.distance looks only for what is nearer, ray.length for all, below 0 ends.
+    void visit_hits(const Ray& ray, const std::function<double(const RayHit&)>& visit,
+                    const QueryFilter& filter = {}) const;
+
+    /// Bodies with a shape whose own bounding box overlaps the box, in the order of bodies().
+    std::vector<BodyId> bodies_in(const Bounds& box, const QueryFilter& filter = {}) const;
+    /// Shapes that a ball or box, put there, would touch or overlap, by their ids.
+    std::vector<ShapeId> overlapping(const Geometry& geometry, const Position& position,
+                                     const Quat& rotation, const QueryFilter& filter = {}) const;
+    /// The shape whose surface is nearest, no farther than `reach` m (>= 0, may be infinite), with
+    /// the signed distance of the point to it.
+    NearestHit closest_point(const Position& point,
+                             double reach = std::numeric_limits<double>::infinity(),
+                             const QueryFilter& filter = {}) const;
+
+    /// Puts shapes that were created since the last step, which every question tries one by one,
+    /// where a search finds them. A step does so by itself; this is for those who ask much of a
+    /// world that was just built. Never changes an answer.
+    void prepare_questions();
 
 private:
     std::unique_ptr<WorldState> state_;

@@ -10,6 +10,7 @@
 #include "narrow/axis_box_box.h"
 #include "narrow/find_axis.h"
 #include "shape/bounds.h"
+#include "world/shape_pose.h"
 #include "world/sleep.h"
 
 namespace cairn {
@@ -22,27 +23,8 @@ constexpr float skin_share = 0.01f;
 // Room in a fat box, as a share of the shape: more of it makes more pairs, less more updates.
 constexpr float fat_share = 0.1f;
 
-bool agree(const CollisionFilter& a, const CollisionFilter& b) {
-    if (a.group == b.group && a.group != 0) return a.group > 0;
-    return (a.mask & b.category) != 0 && (b.mask & a.category) != 0;
-}
-
 bool is_round(const Geometry& geometry) { return std::holds_alternative<Sphere>(geometry); }
 bool is_plane(const Geometry& geometry) { return std::holds_alternative<Plane>(geometry); }
-
-// From the body's center of mass to the shape's origin, along world axes.
-Vec3 shape_offset(const WorldState& world, const ShapeRecord& shape) {
-    if (shape.seat == nothing) return {};
-    const Vec3 offset = world.seats[shape.seat].offset;
-    return offset == Vec3{} ? Vec3{} : rotate(world.rotations[shape.body], offset);
-}
-
-Quat shape_rotation(const WorldState& world, const ShapeRecord& shape) {
-    const Quat rotation = world.rotations[shape.body];
-    if (shape.seat == nothing) return rotation;
-    const ShapeSeat& seat = world.seats[shape.seat];
-    return seat.is_turned ? rotation * seat.local_pose.rotation : rotation;
-}
 
 // How far a shape's points may travel in dt seconds, beyond the smooth path of its center of mass.
 float turning_reach(const WorldState& world, const ShapeRecord& shape, float dt) {
@@ -116,7 +98,7 @@ Axis find_axis_within(const Geometry& a, const Geometry& b, const Pose& b_in_a, 
 // A box that holds the shape throughout the next dt seconds, if it moves.
 Aabb find_box(const WorldState& world, const ShapeRecord& shape, bool moves, float h) {
     const Quat rotation = shape_rotation(world, shape);
-    const Position center = world.positions[shape.body] + shape_offset(world, shape);
+    const Position center = shape_position(world, shape);
     Vec3 half = bounds_half_extents(shape.geometry, to_matrix(rotation));
     if (!is_plane(shape.geometry)) {
         float margin = skin_share * shape.size;
@@ -208,6 +190,7 @@ void update_boxes(WorldState& world, Team& team, float h) {
         for (const std::uint32_t body : stale)
             visit_shapes(world, body, [&](std::uint32_t slot) { world.tree.look_up(slot); });
     }
+    forget(world.unplaced);
     forget(stale);
 }
 
@@ -311,13 +294,50 @@ void find_present_pairs(const WorldState& world, double dt, LargeArray<Pair>& pa
     std::erase_if(pairs, [&](const Pair& pair) { return !may_touch(world, pair); });
 }
 
-void add_to_way(WorldState& world, std::uint32_t body, Quat before) {
+void keep_in_tree(WorldState& world, std::uint32_t body) {
+    const bool moves = can_move(world, body);
+    visit_shapes(world, body, [&](std::uint32_t slot) {
+        if (!world.tree.is_there(slot)) return;
+        const ShapeRecord& shape = world.shapes[slot];
+        const Aabb box = find_box(world, shape, false, 0);
+        const auto h = float(world.last_dt);
+        world.tree.update(slot, box, fatten(world, shape, box, moves, h));
+    });
+}
+
+void complete_tree(WorldState& world) {
+    const auto h = float(world.last_dt);
+    LargeArray<Proxy> proxies;
+    for (const ShapeId id : world.unplaced) {
+        const ShapeRecord& shape = world.shapes[id.index];
+        if (shape.generation != id.generation || world.tree.is_there(id.index)) continue;
+        const bool moves_now = moves(world, shape.body), may_move = can_move(world, shape.body);
+        const Aabb box = find_box(world, shape, moves_now, h);
+        proxies.push_back({fatten(world, shape, box, may_move, h), id.index, may_move});
+    }
+    world.tree.insert_many(proxies);
+    world.unplaced.clear();
+}
+
+Aabb find_present_box(const WorldState& world, const ShapeRecord& shape) {
+    return box_around(shape_position(world, shape),
+                      bounds_half_extents(shape.geometry, to_matrix(shape_rotation(world, shape))));
+}
+
+bool add_to_way(WorldState& world, std::uint32_t body, const BodyMotion& before) {
     BodyWay& way = world.ways[world.bodies[body].mobile];
     const BodyMotion motion = motion_of(world, body);
-    if (motion.displacement != Vec3{}) way.gone += double(length(motion.displacement));
-    if (motion.rotation == before) return;
-    // A turn moves a point by the chord over its arm.
-    way.gone += 2.0 * double(length(half_turn(motion.rotation, before))) * double(way.reach);
+    const float shift = length(motion.displacement);
+    way.gone += double(shift);
+    if (motion.rotation != before.rotation) {
+        // A turn moves a point by the chord over its arm.
+        const float turn = length(half_turn(motion.rotation, before.rotation));
+        way.gone += 2.0 * double(turn) * double(way.reach);
+    }
+    // A shape near the center of mass has the shift before it and little of the turn.
+    const auto h = float(world.last_dt);
+    const float foreseen = h * length(before.linear_velocity) + fall_in(world, h);
+    return way.gone <= way.horizon && shift <= foreseen;
 }
 
 void look_ahead(WorldState& world, Team& team, double dt) {

@@ -13,8 +13,17 @@ void find_step_pairs(WorldState& world, Team& team, double dt, LargeArray<Pair>&
 // The same between steps, at the present poses and of all bodies, those that rest included.
 void find_present_pairs(const WorldState& world, double dt, LargeArray<Pair>& pairs);
 
-// What a body has gone in a step that it began with the rotation `before`.
-void add_to_way(WorldState& world, std::uint32_t body, Quat before);
+// Between steps every shape lies within its box in the tree, or is listed as not there yet: what
+// was changed or went farther than foreseen is given a new box at once, as the next step would.
+void keep_in_tree(WorldState& world, std::uint32_t body);
+// Puts into the tree what is not there yet.
+void complete_tree(WorldState& world);
+// The shape's own bounding box as it stands.
+Aabb find_present_box(const WorldState& world, const ShapeRecord& shape);
+
+// What a body has gone in a step that it began with the motion `before`. False where that is
+// farther than was foreseen when its boxes were made.
+bool add_to_way(WorldState& world, std::uint32_t body, const BodyMotion& before);
 // How far all that move may go in dt seconds.
 void look_ahead(WorldState& world, Team& team, double dt);
 // Whether a pair that was apart cannot have come within reach since, nor come there in this step.

@@ -286,17 +286,16 @@ void tell_news(WorldState& world, PairRecord& pair) {
     world.contacts.remove_contact(pair);
 }
 
-// Takes a body where the step brought it; which of its numbers is wrong, if one is.
-std::optional<Quantity> move_body(WorldState& world, std::uint32_t slot, Quat rotation_before) {
+// Takes a body where the step brought it, unless one of its numbers is wrong.
+BodyArrival move_body(WorldState& world, std::uint32_t slot, const BodyMotion& before) {
     const BodyMotion motion = motion_of(world, slot);
     const Position moved = world.positions[slot] + motion.displacement;
-    if (!is_sound(motion.linear_velocity)) return Quantity::LinearVelocity;
-    if (!is_sound(motion.angular_velocity)) return Quantity::AngularVelocity;
-    if (!is_finite(motion.displacement) || !is_sound(moved)) return Quantity::Position;
-    if (!is_finite(motion.rotation)) return Quantity::Rotation;
+    if (!is_sound(motion.linear_velocity)) return {.wrong = Quantity::LinearVelocity};
+    if (!is_sound(motion.angular_velocity)) return {.wrong = Quantity::AngularVelocity};
+    if (!is_finite(motion.displacement) || !is_sound(moved)) return {.wrong = Quantity::Position};
+    if (!is_finite(motion.rotation)) return {.wrong = Quantity::Rotation};
     world.positions[slot] = moved;
-    add_to_way(world, slot, rotation_before);
-    return std::nullopt;
+    return {.strayed = !add_to_way(world, slot, before)};
 }
 
 }  // namespace
@@ -406,22 +405,23 @@ void advance(WorldState& world, Team& team, double dt) {
     advance_groups(world, team, problem);
 }
 
-// Reads displacements; writes positions. A body whose numbers went wrong goes back to the step's
-// start.
+// Reads displacements; writes positions, and the tree's boxes of what strayed out of them. A body
+// whose numbers went wrong goes back to the step's start.
 void move_bodies(WorldState& world, Team& team) {
     const StageTimer timer(world, Stage::Finish, "move-bodies");
     const auto& moving = world.scratch.moving;
-    auto& wrong = world.scratch.wrong;
-    wrong.resize(moving.size());
+    auto& arrivals = world.scratch.arrivals;
+    arrivals.resize(moving.size());
     team.for_range(int(moving.size()), bodies_a_block, [&](int begin, int end, int) {
         for (auto k = std::size_t(begin); k < std::size_t(end); ++k)
-            wrong[k] = move_body(world, moving[k], world.scratch.before[k].rotation);
+            arrivals[k] = move_body(world, moving[k], world.scratch.before[k]);
     });
     bool any_frozen = false;
     for (std::size_t k = 0; k < moving.size(); ++k) {
-        if (!wrong[k]) continue;
+        if (arrivals[k].strayed) keep_in_tree(world, moving[k]);
+        if (!arrivals[k].wrong) continue;
         set_motion(world, moving[k], world.scratch.before[k]);
-        freeze(world, moving[k], *wrong[k]);
+        freeze(world, moving[k], *arrivals[k].wrong);
         any_frozen = true;
     }
     if (!any_frozen) return;

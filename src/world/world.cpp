@@ -103,6 +103,7 @@ void assign_mass(WorldState& world, std::uint32_t slot, const MassProperties& pr
     });
     if (mobile != scenery) world.ways[mobile].reach = reach;
     measure_extent(world, slot);
+    keep_in_tree(world, slot);
 }
 
 std::uint32_t add_shape(WorldState& world, std::uint32_t body, const ShapeDef& def) {
@@ -122,6 +123,7 @@ std::uint32_t add_shape(WorldState& world, std::uint32_t body, const ShapeDef& d
     shape.next = nothing;
     (owner.last_shape == nothing ? owner.first_shape : world.shapes[owner.last_shape].next) = slot;
     owner.last_shape = slot;
+    world.unplaced.push_back(shape_id(world, slot));
     return slot;
 }
 
@@ -161,8 +163,12 @@ void forget_sightings(WorldState& world) {
 void forget_pairs(WorldState& world) {
     world.tree = {};
     world.fat_pairs.clear();
-    for (std::uint32_t slot = 0; slot < world.bodies.size(); ++slot)
+    world.unplaced.clear();
+    for (std::uint32_t slot = 0; slot < world.bodies.size(); ++slot) {
         world.rest.stale.push_back(slot);
+        visit_shapes(world, slot,
+                     [&](std::uint32_t s) { world.unplaced.push_back(shape_id(world, s)); });
+    }
 }
 
 }  // namespace
@@ -420,6 +426,7 @@ Status World::set_pose(BodyId id, const Position& position, const Quat& rotation
     update_membership(world, id.index);
     note_change(world, id.index);
     forget_contacts(world, id.index);
+    keep_in_tree(world, id.index);
     return Done{};
 }
 

@@ -110,6 +110,12 @@ struct PairBlock {
     std::uint32_t news_count = 0;  // contacts that began, ended or have no points
 };
 
+// Where a step took a body.
+struct BodyArrival {
+    std::optional<Quantity> wrong = {};  // which of its numbers, if one is: it stays where it was
+    bool strayed = false;                // farther than was foreseen when the step began
+};
+
 struct WorldState {
     WorldSettings settings;
     std::function<void(const Error&)> on_error;
@@ -144,7 +150,9 @@ struct WorldState {
     // By shape slot: a box that holds the shape throughout the step, as of the last step that
     // looked at it.
     LargeArray<Aabb> boxes;
-    TreePairs tree;              // fat boxes, by shape slot
+    TreePairs tree;  // fat boxes, by shape slot
+    // Shapes that are not in the tree yet, and some that are no more.
+    LargeArray<ShapeId> unplaced;
     LargeArray<Pair> fat_pairs;  // those among them of which a body is looked at, sorted
 
     ContactStore contacts;
@@ -176,7 +184,7 @@ struct WorldState {
         LargeArray<PairBlock> pair_blocks;  // of that list
         LargeArray<std::uint32_t> active;
         LargeArray<BodyMotion> before;
-        LargeArray<std::optional<Quantity>> wrong;  // as `moving`: which of its numbers
+        LargeArray<BodyArrival> arrivals;  // as `moving`
         StepGroups groups;
         std::vector<Workshop> workshops;  // by worker
     } scratch;
