@@ -1,4 +1,4 @@
-// The command line: `cairn run`, `scenes`, `export`, `check`, `bench`.
+// The command line: `cairn run`, `query`, `scenes`, `export`, `check`, `bench`.
 //
 // Exit status: 0 done; 1 the run went wrong; 2 bad usage, a bad scene or something not supported,
 // with one message on standard error.
@@ -10,6 +10,7 @@
 #include <iostream>
 
 #include "cairn_bench.h"
+#include "cairn_query.h"
 #include "cairn_run.h"
 #include "cairn_terminal.h"
 #include "scene/builtin.h"
@@ -106,6 +107,19 @@ void add_bench_options(CLI::App& app, tool::BenchCommand& bench) {
     app.add_option("--html", bench.html, "write a page with bars, FILE.html");
 }
 
+void add_query_options(CLI::App& app, tool::QueryCommand& query) {
+    app.add_option("SCENE", query.scene, "a scene file, -, or a built-in scene's name")->required();
+    const auto add_list = [&](const char* flag, std::vector<std::string>& list, const char* help) {
+        app.add_option(flag, list, help)->type_size(1)->allow_extra_args(false);
+    };
+    add_list("--set", query.settings, "a built-in scene's parameter, key=value");
+    add_list("--ray", query.rays, "what it meets: ox,oy,oz,dx,dy,dz[,length], metres; may repeat");
+    add_list("--point", query.points, "the nearest surface: x,y,z[,reach]; may repeat");
+    add_list("--box", query.boxes, "the bodies in it: lx,ly,lz,ux,uy,uz; may repeat");
+    app.add_option("--steps", query.steps, "how many steps to take first");
+    app.add_flag("--all", query.all, "all that a ray meets, not only the first");
+}
+
 int run_command_line(int argc, char** argv) {
     CLI::App app{"Cairn, a 3D rigid-body physics engine that you can see into"};
     app.set_version_flag("--version", version());
@@ -113,6 +127,11 @@ int run_command_line(int argc, char** argv) {
     tool::RunCommand run;
     CLI::App* run_app = app.add_subcommand("run", "simulate a scene");
     add_run_options(*run_app, run);
+
+    tool::QueryCommand query;
+    CLI::App* query_app =
+        app.add_subcommand("query", "tell what rays meet in a scene, and what is where, as JSON");
+    add_query_options(*query_app, query);
 
     CLI::App* scenes_app =
         app.add_subcommand("scenes", "list the built-in scenes and their parameters");
@@ -143,14 +162,15 @@ int run_command_line(int argc, char** argv) {
         const std::string first = argc > 1 ? argv[1] : "";
         if (app.get_subcommands().empty() && !first.empty() && first[0] != '-') {
             return fail(bad_usage,
-                        fmt::format("found the command \"{}\"; allowed: run, scenes, export, "
-                                    "check, report, bench",
+                        fmt::format("found the command \"{}\"; allowed: run, query, scenes, "
+                                    "export, check, report, bench",
                                     scene::make_printable(first)));
         }
         return fail(bad_usage, std::string(error.what()) +
                                    "; `cairn --help` and `cairn run --help` tell more");
     }
     if (*run_app) return tool::run(run);
+    if (*query_app) return tool::query(query);
     if (*scenes_app) return list_scenes();
     if (*export_app) return export_scene(source, settings);
     if (*check_app) return check_scene(source, settings);
