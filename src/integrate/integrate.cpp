@@ -67,6 +67,23 @@ void free_rotation(Quat& rotation, Vec3& angular_velocity, const SymmetricMat3& 
     angular_velocity = rotate(rotation, spin);
 }
 
+Vec3 tumble_slowly(Quat rotation, Vec3& angular_velocity, const SymmetricMat3& inertia,
+                   const SymmetricMat3& inverse_inertia, float h) {
+    const auto change_over = [&](float time, Vec3 spin) {
+        return (-time) * (inverse_inertia * cross(spin, inertia * spin));
+    };
+    const Vec3 before = rotate_inverse(rotation, angular_velocity);
+    const Vec3 middle = before + change_over(0.5f * h, before);
+    const Vec3 after = before + change_over(h, middle);
+    const Vec3 steady = rotate(rotation, middle);
+    // Turned along with the body by the small vector h steady.
+    const Vec3 turning = h * steady;
+    const Vec3 along = rotate(rotation, after);
+    const Vec3 aside = cross(turning, along);
+    angular_velocity = along + (aside + 0.5f * cross(turning, aside));
+    return steady;
+}
+
 bool tumbles(const BodyInertia& inertia, const BodyDrive& drive) {
     const bool turns_freely = !drive.lock.rx && !drive.lock.ry && !drive.lock.rz;
     return inertia.inverse_mass > 0 && drive.gyroscopic && !inertia.isotropic && turns_freely;

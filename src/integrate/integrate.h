@@ -38,4 +38,11 @@ bool tumbles(const BodyInertia& inertia, const BodyDrive& drive);
 void free_rotation(Quat& rotation, Vec3& angular_velocity, const SymmetricMat3& inertia,
                    const SymmetricMat3& inverse_inertia, float h);
 
+// The same for a body that turns by less than this many radians in h seconds, by the explicit
+// midpoint rule in the body frame: what it leaves out is of the turn's third order, as small as
+// rounding. Returns the steady angular velocity, world, that turns the body as far.
+constexpr float slow_turn = 0.01f;
+Vec3 tumble_slowly(Quat rotation, Vec3& angular_velocity, const SymmetricMat3& inertia,
+                   const SymmetricMat3& inverse_inertia, float h);
+
 }  // namespace cairn
