@@ -28,6 +28,7 @@ struct StepProblem {
     std::span<Contact> contacts;
     // The contacts with points, in ascending order of their keys.
     std::span<const std::uint32_t> active = {};
+    bool is_one_island = false;  // all bodies that can be pushed certainly hang together
 
     Vec3 gravity;
     double dt = 0;

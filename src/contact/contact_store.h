@@ -41,6 +41,9 @@ class ContactStore {
 public:
     static constexpr std::uint32_t none = PairTable::none;
 
+    // Whether a renewal by these pairs, ascending, would leave all as it is.
+    template <class Pairs>
+    bool lists(const Pairs& pairs) const;
     // A renewal lists all pairs of the step, so many, in ascending order of key; those not listed
     // end, or are put aside.
     void begin_renewal(std::size_t pair_count);
@@ -121,6 +124,15 @@ PointForces forces_of(const Contact& contact);
 // Carries the forces over to the points that took the place of those, where the feature is the
 // same; nothing has passed through them yet in this step.
 void match_points(const PointForces& before, Contact& contact);
+
+template <class Pairs>
+bool ContactStore::lists(const Pairs& pairs) const {
+    if (!returning_.empty() || pairs.size() != pairs_.size()) return false;
+    for (std::size_t i = 0; i < pairs_.size(); ++i) {
+        if (pairs[i].a != pairs_[i].shape_a || pairs[i].b != pairs_[i].shape_b) return false;
+    }
+    return true;
+}
 
 template <class Unwanted, class OnEnd>
 void ContactStore::remove_if(Unwanted&& unwanted, OnEnd&& on_end) {

@@ -22,13 +22,14 @@ public:
     // Takes the group out of the world and makes `problem` be about it.
     void gather(WorldState& world, const StepGroup& group, StepProblem& problem);
     // Hands back what moved, and gives the contacts their bodies' slots.
-    void scatter(WorldState& world, const StepGroup& group) const;
+    void scatter(WorldState& world, const StepGroup& group, const StepProblem& problem) const;
 
 private:
     bool is_listed(std::uint32_t body) const {
         return places_[body] < slots_.size() && slots_[places_[body]] == body;
     }
-    void add(const WorldState& world, std::uint32_t body);
+    void resize(std::size_t count);
+    void copy(const WorldState& world, std::uint32_t body, std::size_t place);
     std::uint32_t place_guest(const WorldState& world, std::uint32_t body);
 
     LargeArray<std::uint32_t> slots_;   // by place
@@ -39,6 +40,8 @@ private:
     Vec3 up_;  // against gravity
     LargeArray<float> heights_;
     LargeArray<std::uint32_t> moving_;  // places
+    // By place in the group's contacts: whether a body of it is none of the group's own.
+    LargeArray<std::uint8_t> has_guest_;
 };
 
 }  // namespace cairn

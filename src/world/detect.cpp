@@ -403,9 +403,11 @@ bool find_meeting(const WorldState& world, std::uint32_t shape_a, std::uint32_t 
     const ShapeRecord& b = world.shapes[shape_b];
     const Vec3 between = (world.positions[b.body] - world.positions[a.body]) +
                          (shape_offset(world, b) - shape_offset(world, a));
-    meeting.rotation_a = shape_rotation(world, a);
+    // A ball's axes are the world's.
+    const Quat rotation_b = is_round(b.geometry) ? Quat{} : shape_rotation(world, b);
+    meeting.rotation_a = is_round(a.geometry) ? Quat{} : shape_rotation(world, a);
     meeting.b_in_a = {rotate_inverse(meeting.rotation_a, between),
-                      conjugate(meeting.rotation_a) * shape_rotation(world, b)};
+                      conjugate(meeting.rotation_a) * rotation_b};
     if (!is_finite(meeting.b_in_a.position)) return false;
     const Reach reach = find_reach(world, a, b, meeting.rotation_a, dt);
     meeting.axis =
@@ -428,7 +430,7 @@ void build_contact_points(const WorldState& world, const Meeting& meeting, float
     // B's arm goes by way of the world, so that both end at the same place there to the last digit:
     // what a turn between the two frames rounds away moves a house of cards.
     const Mat3 axes_a = to_matrix(meeting.rotation_a);
-    const Mat3 axes_b = to_matrix(shape_rotation(world, b));
+    const Mat3 axes_b = round_b ? Mat3{} : to_matrix(shape_rotation(world, b));
     contact.normal = normalize_or(axes_a * manifold.normal, {0, 1, 0});
     contact.point_count = 0;
     for (int i = 0; i < manifold.point_count; ++i) {

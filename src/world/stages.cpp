@@ -145,9 +145,9 @@ void report_end(WorldState& world, std::uint32_t slot) {
     unlink_contact(world, slot);
 }
 
-// Gives a moving body the forces of the step and lists it; freezes one whose velocity these would
-// take beyond all numbers.
-void drive_body(WorldState& world, std::uint32_t slot, float h) {
+// Gives a moving body the forces of the step; which velocity these would take beyond all numbers,
+// if they do.
+std::optional<Quantity> drive_body(WorldState& world, std::uint32_t slot, float h) {
     const std::uint32_t mobile = world.bodies[slot].mobile;
     BodyTravel& travel = world.travels[mobile];
     BodyDrive& drive = world.drives[mobile];
@@ -165,12 +165,26 @@ void drive_body(WorldState& world, std::uint32_t slot, float h) {
     const Quat rotation = world.rotations[slot];
     const Vec3 twist =
         rotate(rotation, inertia.inverse_inertia * rotate_inverse(rotation, drive.torque));
-    if (!is_sound(travel.linear_velocity + h * push)) {
-        freeze(world, slot, Quantity::LinearVelocity);
-    } else if (!is_sound(travel.angular_velocity + h * twist)) {
-        freeze(world, slot, Quantity::AngularVelocity);
-    } else {
-        world.scratch.moving.push_back(slot);
+    if (!is_sound(travel.linear_velocity + h * push)) return Quantity::LinearVelocity;
+    if (!is_sound(travel.angular_velocity + h * twist)) return Quantity::AngularVelocity;
+    return std::nullopt;
+}
+
+// Drives and lists those of the bodies that have sound velocities; the others freeze.
+void drive_bodies(WorldState& world, Team& team, std::span<const std::uint32_t> bodies, double dt) {
+    auto& overdriven = world.scratch.overdriven;
+    overdriven.resize(bodies.size());
+    team.for_range(int(bodies.size()), bodies_a_block, [&](int begin, int end, int) {
+        for (auto k = std::size_t(begin); k < std::size_t(end); ++k)
+            overdriven[k] = drive_body(world, bodies[k], float(dt));
+    });
+    make_room(world.scratch.moving, world.scratch.moving.size() + bodies.size());
+    for (std::size_t k = 0; k < bodies.size(); ++k) {
+        if (overdriven[k]) {
+            freeze(world, bodies[k], *overdriven[k]);
+        } else {
+            world.scratch.moving.push_back(bodies[k]);
+        }
     }
 }
 
@@ -180,7 +194,7 @@ void advance_group(WorldState& world, const StepGroup& group, WorldState::Worksh
     problem.team = team;
     workshop.bodies.gather(world, group, problem);
     std::visit([&](auto& method) { method.advance(problem); }, workshop.solver);
-    workshop.bodies.scatter(world, group);
+    workshop.bodies.scatter(world, group, problem);
 }
 
 // A group of so many contacts is worth sharing; smaller ones are taken by one thread each.
@@ -301,7 +315,7 @@ BodyArrival move_body(WorldState& world, std::uint32_t slot, const BodyMotion& b
 }  // namespace
 
 // Reads what the user set; writes the drives and the list of bodies that move.
-void apply_changes(WorldState& world, double dt) {
+void apply_changes(WorldState& world, Team& team, double dt) {
     const TraceScope scope(world.trace.get(), 0, "apply-changes");
     world.report.stage_seconds = {};
     ++world.report.step;
@@ -310,20 +324,21 @@ void apply_changes(WorldState& world, double dt) {
     world.last_dt = dt;
     list_moving(world);
     world.scratch.moving.clear();
-    for (const std::uint32_t slot : world.rest.movers) drive_body(world, slot, float(dt));
+    drive_bodies(world, team, world.rest.movers, dt);
 }
 
 // Reads poses and velocities; renews the list of contacts, ends those whose boxes parted.
 void find_pairs(WorldState& world, Team& team, double dt) {
     const StageTimer timer(world, Stage::FindPairs, "find-pairs");
     find_step_pairs(world, team, dt, world.scratch.pairs);
+    world.report.pair_count = world.scratch.pairs.size();
+    if (world.contacts.lists(world.scratch.pairs)) return;
     world.contacts.begin_renewal(world.scratch.pairs.size());
     for (const Pair& pair : world.scratch.pairs) world.contacts.renew(pair.a, pair.b);
     const auto is_idle = [&](const Contact& contact) {
         return !is_looked_at(world, contact.body_a) && !is_looked_at(world, contact.body_b);
     };
     world.contacts.end_renewal(is_idle, [&](std::uint32_t slot) { report_end(world, slot); });
-    world.report.pair_count = world.scratch.pairs.size();
 }
 
 // Reads the listed pairs; writes the axis of each that is within reach, and brings contacts to the
@@ -375,20 +390,25 @@ void join_islands(WorldState& world, Team& team, double dt) {
     list_active(world, team);
     auto& moving = world.scratch.moving;
     const LargeArray<std::uint32_t> before = moving;
+    LargeArray<std::uint32_t> woken;
     for (const std::uint32_t slot : world.rest.movers) {
         const bool is_new = !std::binary_search(before.begin(), before.end(), slot);
-        if (is_new && !world.bodies[slot].frozen) drive_body(world, slot, float(dt));
+        if (is_new && !world.bodies[slot].frozen) woken.push_back(slot);
     }
+    drive_bodies(world, team, woken, dt);
     std::sort(moving.begin(), moving.end());
 }
 
 // Reads everything above; writes velocities, rotations, displacements and impulses.
 void advance(WorldState& world, Team& team, double dt) {
     const StageTimer timer(world, Stage::Solve, "solve");
+    const auto& moving = world.scratch.moving;
     auto& before = world.scratch.before;
-    before.clear();
-    make_room(before, world.scratch.moving.size());
-    for (const std::uint32_t slot : world.scratch.moving) before.push_back(motion_of(world, slot));
+    before.resize(moving.size());
+    team.for_range(int(moving.size()), bodies_a_block, [&](int begin, int end, int) {
+        for (auto k = std::size_t(begin); k < std::size_t(end); ++k)
+            before[k] = motion_of(world, moving[k]);
+    });
     const StepSettings& step = world.settings.step;
     StepProblem problem = {
         .contacts = world.contacts.slots(),
@@ -401,7 +421,7 @@ void advance(WorldState& world, Team& team, double dt) {
         .lanes = step.lanes,
         .team = &team,
     };
-    world.scratch.groups.form(world);
+    world.scratch.groups.form(world, team);
     advance_groups(world, team, problem);
 }
 

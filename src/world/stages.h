@@ -5,7 +5,7 @@
 
 namespace cairn {
 
-void apply_changes(WorldState& world, double dt);
+void apply_changes(WorldState& world, Team& team, double dt);
 void find_pairs(WorldState& world, Team& team, double dt);
 void find_axes(WorldState& world, Team& team, double dt);
 void build_manifolds(WorldState& world, Team& team);

@@ -26,15 +26,15 @@ void step_world(WorldState& world, double dt) {
     // Who shares the loops below.
     Team team(choose_scheduler(world), world.trace.get());
 
-    apply_changes(world, dt);       // the user's forces; what is not finite is frozen here
-    find_pairs(world, team, dt);    // broad phase: which boxes overlap
-    find_axes(world, team, dt);     // narrow phase: along which direction two shapes meet
-    build_manifolds(world, team);   // contact points, with the impulses of the last step
-    join_islands(world, team, dt);  // what moves together; what is touched wakes
-    advance(world, team, dt);       // integrate, solve, correct: the exchangeable method
-    move_bodies(world, team);       // displacements become positions; what went wrong is frozen
-    report_contacts(world, team);   // which contacts began, which ended
-    put_to_rest(world, dt);         // what has stood still falls asleep
+    apply_changes(world, team, dt);  // the user's forces; what is not finite is frozen here
+    find_pairs(world, team, dt);     // broad phase: which boxes overlap
+    find_axes(world, team, dt);      // narrow phase: along which direction two shapes meet
+    build_manifolds(world, team);    // contact points, with the impulses of the last step
+    join_islands(world, team, dt);   // what moves together; what is touched wakes
+    advance(world, team, dt);        // integrate, solve, correct: the exchangeable method
+    move_bodies(world, team);        // displacements become positions; what went wrong is frozen
+    report_contacts(world, team);    // which contacts began, which ended
+    put_to_rest(world, dt);          // what has stood still falls asleep
 }
 
 }  // namespace cairn

@@ -14,6 +14,7 @@ namespace {
 // A group takes islands until it has so many contacts or bodies: rows and bodies of a few hundred
 // kilobytes.
 constexpr std::uint32_t full = 512;
+constexpr int contacts_a_block = 256;
 
 bool is_pushed(const WorldState& world, std::uint32_t body) {
     return inertia_of(world, body).inverse_mass > 0;
@@ -31,12 +32,13 @@ std::uint32_t find_kind(std::uint32_t contacts, float smallest, bool is_new) {
 StepGroup StepGroups::operator[](std::size_t group) const {
     const Range& from = groups_[group];
     const Range& to = groups_[group + 1];
-    return {std::span(moving_).subspan(from.moving, to.moving - from.moving),
-            std::span(active_).subspan(from.active, to.active - from.active)};
+    const std::uint32_t moving = to.moving - from.moving, active = to.active - from.active;
+    return {std::span(moving_).subspan(from.moving, moving),
+            std::span(active_).subspan(from.active, active), std::max(moving, active) > full};
 }
 
-void StepGroups::form(const WorldState& world) {
-    read_contacts(world);
+void StepGroups::form(const WorldState& world, Team& team) {
+    read_contacts(world, team);
     join_bodies(world);
     measure_islands(world);
     give_groups();
@@ -51,18 +53,21 @@ std::uint32_t StepGroups::find_root(std::uint32_t mobile) {
     return mobile;
 }
 
-void StepGroups::read_contacts(const WorldState& world) {
+void StepGroups::read_contacts(const WorldState& world, Team& team) {
     const auto pushed = [&](std::uint32_t body) {
         return is_pushed(world, body) ? world.bodies[body].mobile : none;
     };
     edges_.resize(world.scratch.active.size());
-    visit_contacts(world.contacts.slots(), std::span<const std::uint32_t>(world.scratch.active), 0,
-                   [&](const Contact& contact, std::size_t k) {
-                       edges_[k] = {.mobile_a = pushed(contact.body_a),
-                                    .mobile_b = pushed(contact.body_b),
-                                    .size = contact.size,
-                                    .touching = contact.touching};
-                   });
+    const std::span<const std::uint32_t> active = world.scratch.active;
+    team.for_range(int(active.size()), contacts_a_block, [&](int begin, int end, int) {
+        visit_contacts(world.contacts.slots(), active, std::size_t(begin), std::size_t(end), 0,
+                       [&](const Contact& contact, std::size_t k) {
+                           edges_[k] = {.mobile_a = pushed(contact.body_a),
+                                        .mobile_b = pushed(contact.body_b),
+                                        .size = contact.size,
+                                        .touching = contact.touching};
+                       });
+    });
 }
 
 // Of two roots the lower one stays.

@@ -19,17 +19,19 @@
 
 namespace cairn {
 
+class Team;
 struct WorldState;
 
 struct StepGroup {
     // As in StepProblem, of the world's slots: bodies that are the group's own, and contacts.
     std::span<const std::uint32_t> moving, active;
+    bool is_one_island = false;  // certainly; a small one may be without being said so
 };
 
 class StepGroups {
 public:
     // Reads the step's moving bodies and contacts with points.
-    void form(const WorldState& world);
+    void form(const WorldState& world, Team& team);
 
     // Groups of bodies that can be pushed.
     std::size_t count() const { return group_count_; }
@@ -63,7 +65,7 @@ private:
         bool touching = false;
     };
 
-    void read_contacts(const WorldState& world);
+    void read_contacts(const WorldState& world, Team& team);
     std::uint32_t find_root(std::uint32_t mobile);
     void join_bodies(const WorldState& world);
     void measure_islands(const WorldState& world);

@@ -184,7 +184,8 @@ struct WorldState {
         LargeArray<PairBlock> pair_blocks;  // of that list
         LargeArray<std::uint32_t> active;
         LargeArray<BodyMotion> before;
-        LargeArray<BodyArrival> arrivals;  // as `moving`
+        LargeArray<std::optional<Quantity>> overdriven;  // of the bodies that were driven last
+        LargeArray<BodyArrival> arrivals;                // as `moving`
         StepGroups groups;
         std::vector<Workshop> workshops;  // by worker
     } scratch;
