@@ -40,11 +40,27 @@ bool has_locked_axes(const StepProblem& problem, std::uint32_t body) {
     return lock.x || lock.y || lock.z;
 }
 
+bool stands_still(const StepProblem& problem, std::uint32_t body) {
+    const BodyMotion& motion = problem.motions[body];
+    return problem.inertias[body].inverse_mass == 0 && motion.linear_velocity == Vec3{} &&
+           motion.angular_velocity == Vec3{};
+}
+
+// Whether nothing of the body but where its center of mass goes moves the contact.
+bool is_ball(const StepProblem& problem, std::uint32_t body, const Arm& arm) {
+    return (problem.inertias[body].isotropic && arm.core == Vec3{}) || stands_still(problem, body);
+}
+
 RowKind kind_of(const StepProblem& problem, const Contact& contact) {
     const bool special = contact.rolling_friction > 0 || has_locked_axes(problem, contact.body_a) ||
                          has_locked_axes(problem, contact.body_b);
-    if (contact.point_count == 1) return special ? RowKind::OnePointSpecial : RowKind::OnePoint;
-    return special ? RowKind::FourPointsSpecial : RowKind::FourPoints;
+    if (contact.point_count > 1) return special ? RowKind::FourPointsSpecial : RowKind::FourPoints;
+    if (special) return RowKind::OnePointSpecial;
+    const ContactPoint& point = contact.points[0];
+    const bool are_balls = contact.spinning_friction == 0 &&
+                           is_ball(problem, contact.body_a, point.arm_a) &&
+                           is_ball(problem, contact.body_b, point.arm_b);
+    return are_balls ? RowKind::Balls : RowKind::OnePoint;
 }
 
 constexpr int bodies_a_block = 128;
@@ -91,6 +107,9 @@ void SoftRows::read(const StepProblem& problem, const Contact& contact, std::siz
                  .turns_with_a = contact.turns_with_a,
                  .turns_with_b = contact.turns_with_b,
                  .remembered_load = contact.remembered_load,
+                 // Where one cannot be pushed it has no mass.
+                 .heavier = max(problem.inertias[contact.body_a].mass,
+                                problem.inertias[contact.body_b].mass),
                  .upright = absolute(dot(contact.normal, up_))};
     edges_[k] = {contact.body_a, contact.body_b, problem.inertias[contact.body_a].inverse_mass > 0,
                  problem.inertias[contact.body_b].inverse_mass > 0};
@@ -114,9 +133,7 @@ void SoftRows::give_places(const StepProblem& problem, int width) {
     for (const Link& link : links_) ++contacts[std::size_t(link.kind)];
     for (std::size_t k = 0; k < row_kind_count; ++k) {
         const auto kind = RowKind(k);
-        const bool special = is_special(kind);
-        arrays_[k].clear(width,
-                         points_of(kind) == 1 ? row_numbers<1>(special) : row_numbers<4>(special));
+        arrays_[k].clear(width, numbers_of(kind));
         // The last row of each colour may be half empty.
         if (contacts[k] > 0)
             arrays_[k].make_room(contacts[k] / std::size_t(width) + colours_.count());

@@ -36,6 +36,7 @@ public:
         bool touching = false;  // before the step
         bool turns_with_a = false, turns_with_b = false;
         float remembered_load = 0;  // what the contact has long borne, N
+        float heavier = 0;          // the mass of the heavier body that can be pushed, kg
         float upright = 0;          // the cosine between its normal and gravity, either way
     };
     void begin_reading(const StepProblem& problem);

@@ -121,6 +121,8 @@ std::uint32_t ExactLoads::find_root(std::uint32_t body) {
 }
 
 void ExactLoads::find_candidates(const StepProblem& problem, const SoftRows& rows) {
+    any_candidate_ = false;
+    if (problem.is_one_island && problem.active.size() > most_points) return;
     sketches_.resize(problem.motions.size());
     for (const std::uint32_t body : problem.moving) sketches_[body] = {.parent = body};
     for (std::size_t k = 0; k < problem.active.size(); ++k) {
@@ -147,7 +149,6 @@ void ExactLoads::find_candidates(const StepProblem& problem, const SoftRows& row
         sketches_[root].points += link.point_count;
         if (link.upright < steep) sketches_[root].leans = true;
     }
-    any_candidate_ = false;
     for (const std::uint32_t body : problem.moving) {
         const Sketch& all = sketches_[body];
         any_candidate_ = any_candidate_ || (all.parent == body && is_candidate(all));
@@ -236,21 +237,21 @@ bool ExactLoads::calls_for_it(std::uint32_t body) {
 
 namespace {
 
-// The record's number at this place in bytes.
-template <int P>
+// Where the record has these numbers.
+template <class Row>
 struct Fields {
-    static constexpr std::size_t normal = offsetof(SoftRow<P>, normal) / 4;
-    static constexpr std::size_t separation = offsetof(SoftRow<P>, separation) / 4;
-    static constexpr std::size_t bias_rate = offsetof(SoftRow<P>, bias_rate) / 4;
-    static constexpr std::size_t mass_scale = offsetof(SoftRow<P>, mass_scale) / 4;
-    static constexpr std::size_t impulse_scale = offsetof(SoftRow<P>, impulse_scale) / 4;
-    static constexpr std::size_t push_speed = offsetof(SoftRow<P>, push_speed) / 4;
-    static constexpr std::size_t slop = offsetof(SoftRow<P>, slop) / 4;
+    static constexpr std::size_t normal = offsetof(Row, normal) / 4;
+    static constexpr std::size_t separation = offsetof(Row, separation) / 4;
+    static constexpr std::size_t bias_rate = offsetof(Row, bias_rate) / 4;
+    static constexpr std::size_t mass_scale = offsetof(Row, mass_scale) / 4;
+    static constexpr std::size_t impulse_scale = offsetof(Row, impulse_scale) / 4;
+    static constexpr std::size_t push_speed = offsetof(Row, push_speed) / 4;
+    static constexpr std::size_t slop = offsetof(Row, slop) / 4;
 };
 
 }  // namespace
 
-template <int P>
+template <class Row>
 void ExactLoads::list_contact(const StepProblem& problem, std::uint32_t k, SoftRows& rows) {
     const Contact& c = problem.contacts[problem.active[k]];
     const SoftRows::Place place = rows.places()[k];
@@ -261,29 +262,31 @@ void ExactLoads::list_contact(const StepProblem& problem, std::uint32_t k, SoftR
         const Vec3 r_a = find_arm(p.arm_a, problem.motions[c.body_a].rotation);
         const Vec3 r_b = find_arm(p.arm_b, problem.motions[c.body_b].rotation);
         touches_.push_back({.kind = place.kind,
-                            .normal = at(Fields<P>::normal + i),
-                            .separation = at(Fields<P>::separation + i),
-                            .mass_scale = at(Fields<P>::mass_scale),
-                            .impulse_scale = at(Fields<P>::impulse_scale),
+                            .normal = at(Fields<Row>::normal + i),
+                            .separation = at(Fields<Row>::separation + i),
+                            .mass_scale = at(Fields<Row>::mass_scale),
+                            .impulse_scale = at(Fields<Row>::impulse_scale),
                             .body_a = c.body_a,
                             .body_b = c.body_b,
                             .n = c.normal,
                             .turn_a = cross(r_a, c.normal),
                             .turn_b = cross(r_b, c.normal),
-                            .bias_rate = array[at(Fields<P>::bias_rate)],
-                            .soft_mass_scale = array[at(Fields<P>::mass_scale)],
-                            .soft_impulse_scale = array[at(Fields<P>::impulse_scale)],
-                            .slop = array[at(Fields<P>::slop)],
-                            .push_speed = array[at(Fields<P>::push_speed)]});
+                            .bias_rate = array[at(Fields<Row>::bias_rate)],
+                            .soft_mass_scale = array[at(Fields<Row>::mass_scale)],
+                            .soft_impulse_scale = array[at(Fields<Row>::impulse_scale)],
+                            .slop = array[at(Fields<Row>::slop)],
+                            .push_speed = array[at(Fields<Row>::push_speed)]});
     }
 }
 
 void ExactLoads::list_touches(const StepProblem& problem, SoftRows& rows) {
     for (const std::uint32_t k : island_) {
-        if (points_of(rows.places()[k].kind) == 1) {
-            list_contact<1>(problem, k, rows);
-        } else {
-            list_contact<4>(problem, k, rows);
+        switch (rows.places()[k].kind) {
+            case RowKind::Balls: list_contact<BallRow>(problem, k, rows); break;
+            case RowKind::OnePoint:
+            case RowKind::OnePointSpecial: list_contact<SoftRow<1>>(problem, k, rows); break;
+            case RowKind::FourPoints:
+            case RowKind::FourPointsSpecial: list_contact<SoftRow<4>>(problem, k, rows); break;
         }
     }
 }

@@ -27,7 +27,9 @@ public:
     // Once a step: looks for the islands that may call for it, by what the rows know of contacts.
     void find_candidates(const StepProblem& problem, const SoftRows& rows);
     // Whether a body that can be pushed is of one of those.
-    bool is_candidate(std::uint32_t body) { return is_candidate(sketches_[find_root(body)]); }
+    bool is_candidate(std::uint32_t body) {
+        return any_candidate_ && is_candidate(sketches_[find_root(body)]);
+    }
     // Finds those that call for it, and their matrices, from filled rows.
     void prepare(const StepProblem& problem, std::span<const Response> responses, SoftRows& rows);
     // Brings the normal impulses of those islands to where every point moves as its overlap or
@@ -64,7 +66,7 @@ private:
     void gather(const StepProblem& problem, const SoftRows& rows);
     void order_island(const StepProblem& problem, std::uint32_t first_body);
     bool calls_for_it(std::uint32_t body);
-    template <int P>
+    template <class Row>
     void list_contact(const StepProblem& problem, std::uint32_t k, SoftRows& rows);
     void list_touches(const StepProblem& problem, SoftRows& rows);
     bool fill(std::span<const Response> responses, std::size_t begin);

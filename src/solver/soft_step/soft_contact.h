@@ -11,6 +11,9 @@ namespace cairn {
 
 // A load of less, N s or N, bears nothing: the inverse of a smaller one may be infinite.
 constexpr float least_load = 1e-30f;
+// Surfaces without friction count as having this little, so that what holds only a twist has a
+// lever.
+constexpr float least_friction = 1e-6f;
 
 // The contacts of one row; a lane without one reads and writes room of its own.
 template <int W>
@@ -73,6 +76,32 @@ template <int W>
 template <int W>
 inline Vec3Lanes<W> first_three(const FourLanes<W>& four) {
     return {four.x, four.y, four.z};
+}
+
+// A unit vector across n.
+template <int W>
+inline Vec3Lanes<W> any_perpendicular(const Vec3Lanes<W>& n) {
+    using F = Lanes<W>;
+    const auto along_x = max(n.x, -n.x) > F(0.57735f);
+    const Vec3Lanes<W> p = {select(along_x, n.y, F(0)), select(along_x, -n.x, n.z),
+                            select(along_x, F(0), -n.y)};
+    return (F(1) / square_root(max(dot(p, p), F(1e-30f)))) * p;
+}
+
+// 1 / x; 0 where x is not above 0.
+template <int W>
+inline Lanes<W> inverse_or_nothing(Lanes<W> x) {
+    using F = Lanes<W>;
+    const auto above = x > F(0);
+    return select(above, F(1) / select(above, x, F(1)), F(0));
+}
+
+// What a contact bears it learns slowly and forgets at once.
+template <int W>
+inline void learn_load(ContactLanes<W>& contacts, const RowSource& source, Lanes<W> force) {
+    FourLanes<W> normal = contacts.read(offsetof(Contact, normal));
+    normal.w = min(normal.w + Lanes<W>(source.learning_share) * (force - normal.w), force);
+    contacts.write(offsetof(Contact, normal), normal);
 }
 
 }  // namespace cairn

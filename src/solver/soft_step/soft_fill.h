@@ -2,6 +2,7 @@
 // Rows from contacts and bodies, W side by side: everything about a contact that stays as it is
 // until it is anchored anew. Included by soft_passes.h alone.
 
+#include "solver/soft_step/normal_laws.h"
 #include "solver/soft_step/row_lanes.h"
 #include "solver/soft_step/soft_contact.h"
 
@@ -12,24 +13,6 @@ inline Vec3Lanes<W> rotate(const FourLanes<W>& q, const Vec3Lanes<W>& v) {
     const Vec3Lanes<W> u = {q.x, q.y, q.z};
     const Vec3Lanes<W> t = Lanes<W>(2) * cross(u, v);
     return v + q.w * t + cross(u, t);
-}
-
-// A unit vector across n.
-template <int W>
-inline Vec3Lanes<W> any_perpendicular(const Vec3Lanes<W>& n) {
-    using F = Lanes<W>;
-    const auto along_x = max(n.x, -n.x) > F(0.57735f);
-    const Vec3Lanes<W> p = {select(along_x, n.y, F(0)), select(along_x, -n.x, n.z),
-                            select(along_x, F(0), -n.y)};
-    return (F(1) / square_root(max(dot(p, p), F(1e-30f)))) * p;
-}
-
-// 1 / x; 0 where x is not above 0.
-template <int W>
-inline Lanes<W> inverse_or_nothing(Lanes<W> x) {
-    using F = Lanes<W>;
-    const auto above = x > F(0);
-    return select(above, F(1) / select(above, x, F(1)), F(0));
 }
 
 // 1 / the larger eigenvalue of a symmetric 2x2 matrix; 0 where nothing gives.
@@ -182,18 +165,7 @@ private:
     }
 
     void fill_softness() {
-        const auto moves_both = min(a_.mass, b_.mass) > F(0);
-        const auto either = [&](float between, float ground) {
-            return select(moves_both, F(between), F(ground));
-        };
-        const Softness &between = source_.between, &ground = source_.ground;
-        row_.set(CAIRN_FIELD(bias_rate), either(between.bias_rate, ground.bias_rate));
-        row_.set(CAIRN_FIELD(mass_scale), either(between.mass_scale, ground.mass_scale));
-        row_.set(CAIRN_FIELD(impulse_scale), either(between.impulse_scale, ground.impulse_scale));
-        const F size = slide_.w;
-        row_.set(CAIRN_FIELD(push_speed), max(square_root(F(source_.speed_squared_a_size) * size),
-                                              F(source_.speed_a_size) * size));
-        row_.set(CAIRN_FIELD(slop), F(source_.slop_a_size) * size);
+        set_softness<Row>(row_, source_, min(a_.mass, b_.mass) > F(0), slide_.w);
     }
 
     void fill_friction() {

@@ -20,6 +20,8 @@
 #include <cstddef>
 
 #include "math/lanes.h"
+#include "solver/soft_step/ball_rows.h"
+#include "solver/soft_step/normal_laws.h"
 #include "solver/soft_step/row_lanes.h"
 #include "solver/soft_step/soft_fill.h"
 #include "solver/soft_step/soft_kernels.h"
@@ -35,10 +37,6 @@ constexpr int most_normal_rounds = 6;
 constexpr float settled_share = 1e-3f;
 // Rounds of the friction of one manifold, likewise.
 constexpr int friction_rounds = 4;
-// Surfaces without friction count as having this little, so that what holds only a twist has a
-// lever.
-constexpr float least_friction = 1e-6f;
-
 template <int W>
 struct LaneVelocities {
     Vec3Lanes<W> v, w;
@@ -131,43 +129,8 @@ public:
         }
     }
 
-    // Springs, as far as points overlap.
-    void solve_soft(F inverse_h) {
-        const F bias_rate = row_.number(CAIRN_FIELD(bias_rate));
-        const F mass_scale = row_.number(CAIRN_FIELD(mass_scale));
-        const F impulse_scale = row_.number(CAIRN_FIELD(impulse_scale));
-        const F slowest = -row_.number(CAIRN_FIELD(push_speed));
-        const F slop = row_.number(CAIRN_FIELD(slop));
-        F answer[P], pushed[P], leak[P];
-        for (int i = 0; i < P; ++i) {
-            const F s = row_.number(CAIRN_FIELD(separation), i);
-            const F mass = row_.number(CAIRN_FIELD(mass), i);
-            const auto open = s > F(0);
-            const F bias =
-                select(open, s * inverse_h, max(bias_rate * min(s + slop, F(0)), slowest));
-            answer[i] = mass * select(open, F(1), mass_scale);
-            pushed[i] = mass * bias;
-            leak[i] = select(open, F(0), impulse_scale);
-        }
-        solve_normals([&](int i, F u, F l) {
-            const F kept = l - leak[i] * (l - row_.number(CAIRN_FIELD(remembered), i));
-            return max((kept - pushed[i]) - answer[i] * u, F(0));
-        });
-    }
-
-    void solve_rigid(F inverse_h) {
-        F answer[P], pushed[P], most[P];
-        for (int i = 0; i < P; ++i) {
-            const F s = row_.number(CAIRN_FIELD(separation), i);
-            answer[i] = row_.number(CAIRN_FIELD(mass), i);
-            pushed[i] = answer[i] * (max(s, F(0)) * inverse_h);
-            // What is open has yet to close: that is the next substep's to meet.
-            most[i] = select(s > F(0), row_.number(CAIRN_FIELD(normal), i), F(1e30f));
-        }
-        solve_normals([&](int i, F u, F l) {
-            return min(max((l - pushed[i]) - answer[i] * u, F(0)), most[i]);
-        });
-    }
+    void solve_soft(F inverse_h) { solve_normals(SoftLaw<Row, P, W>(row_, inverse_h)); }
+    void solve_rigid(F inverse_h) { solve_normals(RigidLaw<Row, P, W>(row_, inverse_h)); }
 
     void rub() {
         F load, hold;
@@ -289,18 +252,18 @@ private:
         b_.w = b_.w + row_.tensor(CAIRN_FIELD(inertia_b)) * on_b;
     }
 
-    // The points of a manifold to and fro; `next` gives a point's load from (point, speed, load).
+    // The points of a manifold to and fro, each by the law.
     // One that comes twice in a row is as it should be and is left out the second time. From load
     // to load it is a chain of five operations: how each load changes each speed is worked out
     // beforehand.
-    template <class Next>
-    void solve_normals(Next&& next) {
+    template <class Law>
+    void solve_normals(const Law& law) {
         const V v = relative_velocity();
         const V spin = b_.w - a_.w;
         const F u0 = dot(n_, v);
         if constexpr (P == 1) {
             const F before = row_.number(CAIRN_FIELD(normal));
-            const F l = next(0, u0, before);
+            const F l = law(0, u0, before);
             row_.set(CAIRN_FIELD(normal), l);
             push((l - before) * n_, V{});
         } else {
@@ -325,7 +288,7 @@ private:
             }
             F largest_change, unsettled = F(1);  // 0 in a lane that is done
             const auto solve_point = [&](int i) {
-                const F change = unsettled * (next(i, u[i], l[i]) - l[i]);
+                const F change = unsettled * (law(i, u[i], l[i]) - l[i]);
                 l[i] += change;
                 for (int j = 0; j < P; ++j) u[j] += coupling[i][j] * change;
                 largest_change = max(largest_change, max(change, -change));
@@ -438,18 +401,18 @@ CAIRN_FLAT void relax_rows(const RowRange& range, SoftBody* bodies, const SoftPa
 template <int W>
 constexpr SoftKernels make_soft_kernels() {
     return {W,
-            {warm_start_rows<1, false, W>, warm_start_rows<4, false, W>,
+            {warm_start_balls<W>, warm_start_rows<1, false, W>, warm_start_rows<4, false, W>,
              warm_start_rows<1, true, W>, warm_start_rows<4, true, W>},
-            {solve_rows<1, false, W>, solve_rows<4, false, W>, solve_rows<1, true, W>,
-             solve_rows<4, true, W>},
-            {measure_rows<1, false, W>, measure_rows<4, false, W>, measure_rows<1, true, W>,
-             measure_rows<4, true, W>},
-            {relax_rows<1, false, W>, relax_rows<4, false, W>, relax_rows<1, true, W>,
-             relax_rows<4, true, W>},
-            {fill_rows<1, false, W>, fill_rows<4, false, W>, fill_rows<1, true, W>,
+            {solve_balls<W>, solve_rows<1, false, W>, solve_rows<4, false, W>,
+             solve_rows<1, true, W>, solve_rows<4, true, W>},
+            {measure_balls<W>, measure_rows<1, false, W>, measure_rows<4, false, W>,
+             measure_rows<1, true, W>, measure_rows<4, true, W>},
+            {relax_balls<W>, relax_rows<1, false, W>, relax_rows<4, false, W>,
+             relax_rows<1, true, W>, relax_rows<4, true, W>},
+            {fill_balls<W>, fill_rows<1, false, W>, fill_rows<4, false, W>, fill_rows<1, true, W>,
              fill_rows<4, true, W>},
-            {store_rows<1, false, W>, store_rows<4, false, W>, store_rows<1, true, W>,
-             store_rows<4, true, W>},
+            {store_balls<W>, store_rows<1, false, W>, store_rows<4, false, W>,
+             store_rows<1, true, W>, store_rows<4, true, W>},
             move_bodies<W>};
 }
 

@@ -86,19 +86,55 @@ struct SoftRow {
     float roll_total_1 = 0, roll_total_2 = 0;
 };
 
+// Between balls about their centers of mass, or such a ball and what stands still, of which nothing
+// resists rolling or spinning: the arms are along the normal, a turn moves nothing, and friction
+// meets one mass in every direction (ball_rows.h).
+struct BallRow {
+    Vec3 n, t1;
+    float arm_a = 0, arm_b = 0;          // along n
+    float mass_a = 0, mass_b = 0;        // inverse
+    float inertia_a = 0, inertia_b = 0;  // inverse
+
+    float start_separation = 0, separation = 0;
+    float normal = 0, remembered = 0, total = 0;
+    float mass = 0;
+    float bias_rate = 0, mass_scale = 0, impulse_scale = 0;
+    float push_speed = 0;
+    float slop = 0;
+
+    float friction = 0;
+    float slide_1 = 0, slide_2 = 0;
+    float tangent_mass = 0;
+    float friction_1 = 0, friction_2 = 0;
+    float friction_total_1 = 0, friction_total_2 = 0;
+};
+
 // How many numbers of a record are kept.
+constexpr std::size_t ball_numbers = sizeof(BallRow) / 4;
 template <int P>
 constexpr std::size_t row_numbers(bool special) {
     return (special ? sizeof(SoftRow<P>) : offsetof(SoftRow<P>, masses_a)) / 4;
 }
 
 // The kinds of rows, each in an array of its own.
-enum class RowKind : std::uint8_t { OnePoint, FourPoints, OnePointSpecial, FourPointsSpecial };
-constexpr std::size_t row_kind_count = 4;
+enum class RowKind : std::uint8_t {
+    Balls,
+    OnePoint,
+    FourPoints,
+    OnePointSpecial,
+    FourPointsSpecial,
+};
+constexpr std::size_t row_kind_count = 5;
 
-constexpr bool is_special(RowKind kind) { return kind >= RowKind::OnePointSpecial; }
-constexpr int points_of(RowKind kind) {
-    return kind == RowKind::OnePoint || kind == RowKind::OnePointSpecial ? 1 : 4;
+constexpr std::size_t numbers_of(RowKind kind) {
+    switch (kind) {
+        case RowKind::Balls: return ball_numbers;
+        case RowKind::OnePoint: return row_numbers<1>(false);
+        case RowKind::FourPoints: return row_numbers<4>(false);
+        case RowKind::OnePointSpecial: return row_numbers<1>(true);
+        case RowKind::FourPointsSpecial: break;
+    }
+    return row_numbers<4>(true);
 }
 
 // Rows of one kind, W lanes each. A lane without a contact pushes nothing.

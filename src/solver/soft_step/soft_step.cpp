@@ -20,7 +20,9 @@ constexpr int most_parts = 12;
 // so many times the weight of the heavier of their two bodies call for more substeps, in
 // proportion.
 constexpr float straight_height = 12.5f;
-constexpr int most_finer = 8;           // times as many, at most
+constexpr int quarters = 4;        // of the substeps that were asked for
+constexpr int least_finer = 6;     // quarters: what is too high by little leans on with one more
+constexpr int most_finer = 8 * 4;  // quarters, at most
 constexpr float least_weight = 1e-30f;  // less, N, is none
 // A contact that has just begun has neither friction nor an even load to start from; what bounces
 // is in touch for a part at most, and loses less the shorter that is.
@@ -59,12 +61,15 @@ FirstGuess::Bearing find_bearing(const StepProblem& problem, const Contact& cont
             .load = load};
 }
 
-// Of as many as each asks for, the number that all but a few of the contacts are content with.
+// Of as many as each asks for, but no fewer than `least`, the number that all but a few of the
+// contacts are content with.
 template <std::size_t Size>
-int find_enough(const std::array<std::size_t, Size>& askers, std::size_t contact_count) {
+int find_enough(const std::array<std::size_t, Size>& askers, std::size_t least,
+                std::size_t contact_count) {
     std::size_t enough = Size - 1;
     std::size_t unserved = askers[enough];
-    while (enough > 1 && unserved * most_unserved <= contact_count) unserved += askers[--enough];
+    while (enough > least && unserved * most_unserved <= contact_count)
+        unserved += askers[--enough];
     return int(enough);
 }
 
@@ -75,7 +80,7 @@ void SoftStep::advance(const StepProblem& problem) {
     read_contacts(problem);
     guess_loads(problem);
     exact_.find_candidates(problem, rows_);
-    const int substeps = problem.substeps * find_finer(problem);
+    const int substeps = find_substeps(problem);
     const auto h = float(problem.dt / substeps);
     choose_parts(problem, h);
     const float part = h / float(parts_);
@@ -175,29 +180,32 @@ void SoftStep::choose_parts(const StepProblem& problem, float h) {
         while (parts < most_parts && sinking > float(parts * parts) * allowed) ++parts;
         ++askers[std::size_t(parts)];
     }
-    parts_ = find_enough(askers, problem.active.size());
+    parts_ = find_enough(askers, 1, problem.active.size());
 }
 
-// How many times as many substeps as were asked for hold the heap straight.
-int SoftStep::find_finer(const StepProblem& problem) {
+// As many as were asked for, or as many more as hold the heap straight.
+int SoftStep::find_substeps(const StepProblem& problem) {
     std::array<std::size_t, most_finer + 1> askers = {};
     for (std::size_t k = 0; k < problem.active.size(); ++k) {
         const FirstGuess::Bearing& bearing = bearings_[k];
         const Colouring::Edge& edge = rows_.edges()[k];
-        // Where one cannot be pushed it has no mass.
-        const float heavier =
-            max(problem.inertias[bearing.body_a].mass, problem.inertias[bearing.body_b].mass);
         // What it has long borne: no blow.
         const float borne = rows_.links()[k].remembered_load + (bearing.load - loads_before_[k]);
-        const float height = borne / max(heavier * length(problem.gravity), least_weight);
+        const float height =
+            borne / max(rows_.links()[k].heavier * length(problem.gravity), least_weight);
         // Columns are held straight exactly, and what touches at a point or an edge not at all.
         const bool is_held = rows_.links()[k].point_count >= 3 &&
                              !exact_.is_candidate(edge.pushes_a ? edge.body_a : edge.body_b);
-        int finer = 1;
-        while (is_held && finer < most_finer && height > float(finer) * straight_height) ++finer;
+        int finer = quarters;
+        if (is_held && height > straight_height) {
+            const float wanted = float(quarters) * height / straight_height;
+            finer = least_finer;
+            while (finer < most_finer && float(finer) < wanted) ++finer;
+        }
         ++askers[std::size_t(finer)];
     }
-    return find_enough(askers, problem.active.size());
+    const int finer = find_enough(askers, quarters, problem.active.size());
+    return (problem.substeps * finer + quarters - 1) / quarters;
 }
 
 void SoftStep::solve_exactly(const StepProblem& problem, float part, bool pushes) {
@@ -315,8 +323,10 @@ void SoftStep::begin_substep(const StepProblem& problem, std::uint32_t i, float 
 Vec3 SoftStep::find_tumble(const StepProblem& problem, std::uint32_t body, Vec3& w, float h) const {
     if (w == Vec3{}) return {};
     const Quat before = normalize(bodies_[body].turn * courses_[body].anchored_rotation);
-    Quat after = before;
     const BodyInertia& inertia = problem.inertias[body];
+    if (h * length(w) < slow_turn)
+        return tumble_slowly(before, w, inertia.inertia, inertia.inverse_inertia, h);
+    Quat after = before;
     free_rotation(after, w, inertia.inertia, inertia.inverse_inertia, h);
     return (1.0f / h) * logarithm(after * conjugate(before));
 }

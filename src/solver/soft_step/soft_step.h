@@ -52,7 +52,7 @@ private:
     void guess_loads(const StepProblem& problem);
     static float resting_speed(const StepProblem& problem);
     static bool meets(const StepProblem& problem, const FirstGuess::Bearing& bearing);
-    int find_finer(const StepProblem& problem);
+    int find_substeps(const StepProblem& problem);
     void choose_parts(const StepProblem& problem, float h);
     void load_bodies(const StepProblem& problem);
     void choose_bouncing(const StepProblem& problem);

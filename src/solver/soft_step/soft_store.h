@@ -51,12 +51,7 @@ public:
         contacts_.write(offsetof(Contact, rolling_torque), torque);
         contacts_.write(offsetof(Contact, rolling_impulse), impulse);
 
-        if (!source_.ends_step) return;
-        // What it bears, learned slowly and forgotten at once.
-        FourLanes<W> normal = contacts_.read(offsetof(Contact, normal));
-        const F force = inverse_h * load;
-        normal.w = min(normal.w + F(source_.learning_share) * (force - normal.w), force);
-        contacts_.write(offsetof(Contact, normal), normal);
+        if (source_.ends_step) learn_load(contacts_, source_, inverse_h * load);
     }
 
 private:
