@@ -23,7 +23,10 @@ constexpr float skin_share = 0.01f;
 // Room in a fat box, as a share of the shape: more of it makes more pairs, less more updates.
 constexpr float fat_share = 0.1f;
 
-bool is_round(const Geometry& geometry) { return std::holds_alternative<Sphere>(geometry); }
+// Whether what touches does not turn with the shape: a radius about a core.
+bool is_round(const Geometry& geometry) {
+    return std::holds_alternative<Sphere>(geometry) || std::holds_alternative<Capsule>(geometry);
+}
 bool is_plane(const Geometry& geometry) { return std::holds_alternative<Plane>(geometry); }
 
 // How far a shape's points may travel in dt seconds, beyond the smooth path of its center of mass.
@@ -42,8 +45,15 @@ float fall_in(const WorldState& world, float dt) {
 Arm make_arm(const ShapeSeat& seat, Vec3 point) {
     return {seat.offset + (seat.is_turned ? rotate(seat.local_pose.rotation, point) : point), {}};
 }
-// To a point of a round shape, world axes: the touching point stays below the center.
-Arm make_round_arm(const ShapeSeat& seat, Vec3 point) { return {seat.offset, point}; }
+// To a point of a round shape, along world axes from its origin: the core turns with the body, the
+// touching point stays below it.
+Arm make_round_arm(const ShapeSeat& seat, const Geometry& geometry, const Mat3& axes, Vec3 point) {
+    const Capsule* capsule = std::get_if<Capsule>(&geometry);
+    if (!capsule) return {seat.offset, point};
+    const float half = 0.5f * capsule->height;
+    const float place = clamp(dot(axes.y, point), -half, half);
+    return {make_arm(seat, {0, place, 0}).core, point - place * axes.y};
+}
 
 BodyPlace place_of(const WorldState& world, std::uint32_t body) {
     return {world.positions[body], world.rotations[body]};
@@ -438,14 +448,14 @@ void build_contact_points(const WorldState& world, const Meeting& meeting, float
         ContactPoint& point = contact.points[std::size_t(contact.point_count++)];
         point = {};
         const Vec3 from_b = axes_a * from.from_b;
-        point.arm_a =
-            round_a ? make_round_arm(seat_a, axes_a * from.from_a) : make_arm(seat_a, from.from_a);
-        point.arm_b = round_b ? make_round_arm(seat_b, from_b)
+        point.arm_a = round_a ? make_round_arm(seat_a, a.geometry, axes_a, axes_a * from.from_a)
+                              : make_arm(seat_a, from.from_a);
+        point.arm_b = round_b ? make_round_arm(seat_b, b.geometry, axes_b, from_b)
                               : make_arm(seat_b, multiply_transposed(axes_b, from_b));
         point.separation = from.separation;
         point.feature = from.feature;
     }
-    // A ball's arms do not turn with it.
+    // A ball's arms do not turn with it, a capsule's end does.
     const float short_arm = 1e-3f * contact.size;
     const auto turns = [&](Vec3 core) { return length_squared(core) > short_arm * short_arm; };
     const bool any = contact.point_count > 0;
