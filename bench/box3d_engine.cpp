@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "engine.h"
+#include "overlap.h"
 
 namespace cairn::bench {
 
@@ -67,6 +68,14 @@ public:
                 const b3BoxHull box = b3MakeTransformedBoxHull(
                     h.x, h.y, h.z, {to_box3d(part.position), to_box3d(part.rotation)});
                 b3CreateHullShape(made, &shape, &box.base);
+            } else if (part.form == Form::Capsule) {
+                const Vector arm = turn(part.rotation, {0, part.half_height, 0});
+                const Vector& p = part.position;
+                const b3Capsule capsule = {
+                    to_box3d(Vector{p[0] - arm[0], p[1] - arm[1], p[2] - arm[2]}),
+                    to_box3d(Vector{p[0] + arm[0], p[1] + arm[1], p[2] + arm[2]}),
+                    static_cast<float>(part.radius)};
+                b3CreateCapsuleShape(made, &shape, &capsule);
             } else {
                 const b3Sphere sphere = {to_box3d(part.position), static_cast<float>(part.radius)};
                 b3CreateSphereShape(made, &shape, &sphere);

@@ -121,10 +121,11 @@ public:
 private:
     static btScalar volume(const Part& part) {
         const Vector& h = part.half_extents;
-        constexpr double ball = 4.0 / 3 * 3.14159265358979323846;
-        return static_cast<btScalar>(part.form == Form::Box
-                                         ? 8 * h[0] * h[1] * h[2]
-                                         : ball * part.radius * part.radius * part.radius);
+        constexpr double pi = 3.14159265358979323846;
+        // Of a ball the cylinder between the ends is nothing.
+        const double round =
+            pi * part.radius * part.radius * (4.0 / 3 * part.radius + 2 * part.half_height);
+        return static_cast<btScalar>(part.form == Form::Box ? 8 * h[0] * h[1] * h[2] : round);
     }
 
     btCollisionShape* share_part(const BenchScene& scene, std::uint32_t index) {
@@ -133,6 +134,10 @@ private:
             const Part& part = scene.parts[index];
             if (part.form == Form::Box) {
                 parts_[index] = std::make_unique<btBoxShape>(to_bullet(part.half_extents));
+            } else if (part.form == Form::Capsule) {
+                parts_[index] =
+                    std::make_unique<btCapsuleShape>(static_cast<btScalar>(part.radius),
+                                                     static_cast<btScalar>(2 * part.half_height));
             } else {
                 parts_[index] = std::make_unique<btSphereShape>(static_cast<btScalar>(part.radius));
             }

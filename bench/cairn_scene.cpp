@@ -46,6 +46,9 @@ BodyDef describe_body(const BenchScene& scene, const SceneBody& body) {
                        .density = body.density};
         if (part.form == Form::Box) {
             shape.geometry = Box{to_vec3(part.half_extents)};
+        } else if (part.form == Form::Capsule) {
+            shape.geometry =
+                Capsule{static_cast<float>(part.radius), static_cast<float>(2 * part.half_height)};
         } else {
             shape.geometry = Sphere{static_cast<float>(part.radius)};
         }

@@ -15,6 +15,7 @@
 #include <Jolt/Physics/Collision/BroadPhase/ObjectVsBroadPhaseLayerFilterTable.h>
 #include <Jolt/Physics/Collision/ObjectLayerPairFilterTable.h>
 #include <Jolt/Physics/Collision/Shape/BoxShape.h>
+#include <Jolt/Physics/Collision/Shape/CapsuleShape.h>
 #include <Jolt/Physics/Collision/Shape/SphereShape.h>
 #include <Jolt/Physics/Collision/Shape/StaticCompoundShape.h>
 #include <Jolt/Physics/PhysicsSystem.h>
@@ -177,6 +178,9 @@ private:
             JPH::ConvexShape* shape = nullptr;
             if (part.form == Form::Box) {
                 shape = new JPH::BoxShape(to_jolt(part.half_extents));
+            } else if (part.form == Form::Capsule) {
+                shape = new JPH::CapsuleShape(static_cast<float>(part.half_height),
+                                              static_cast<float>(part.radius));
             } else {
                 shape = new JPH::SphereShape(static_cast<float>(part.radius));
             }

@@ -92,9 +92,10 @@ private:
 
     void add_part(const Part& part, const SceneBody& body, dBodyID made) {
         const Vector& h = part.half_extents;
-        const bool is_box = part.form == Form::Box;
-        const dGeomID geometry = is_box ? dCreateBox(space_, 2 * h[0], 2 * h[1], 2 * h[2])
-                                        : dCreateSphere(space_, part.radius);
+        const dGeomID geometry =
+            part.form == Form::Box      ? dCreateBox(space_, 2 * h[0], 2 * h[1], 2 * h[2])
+            : part.form == Form::Sphere ? dCreateSphere(space_, part.radius)
+                                        : dCreateCapsule(space_, part.radius, 2 * part.half_height);
         if (made == nullptr) {
             dGeomSetPosition(geometry, body.position[0], body.position[1], body.position[2]);
             return;
@@ -103,8 +104,16 @@ private:
         if (body.mobility == Mobility::Dynamic) {
             const auto density = static_cast<dReal>(body.density);
             dMass mass;
-            if (is_box) dMassSetBox(&mass, density, 2 * h[0], 2 * h[1], 2 * h[2]);
-            if (!is_box) dMassSetSphere(&mass, density, part.radius);
+            if (part.form == Form::Box) dMassSetBox(&mass, density, 2 * h[0], 2 * h[1], 2 * h[2]);
+            if (part.form == Form::Sphere) dMassSetSphere(&mass, density, part.radius);
+            if (part.form == Form::Capsule) {
+                constexpr int along_y = 2;
+                dMassSetCapsule(&mass, density, along_y, part.radius, 2 * part.half_height);
+                // Its capsules lie along z: a quarter turn about x brings that to y.
+                const double half = std::sqrt(0.5);
+                const dQuaternion z_to_y = {half, -half, 0, 0};
+                dGeomSetOffsetQuaternion(geometry, z_to_y);
+            }
             dBodySetMass(made, &mass);
         } else if (part.position != Vector{} || part.rotation != Rotation{0, 0, 0, 1}) {
             const Rotation& q = part.rotation;

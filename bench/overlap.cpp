@@ -48,6 +48,58 @@ double overlap_boxes(const PlacedPart& a, const PlacedPart& b) {
     return least;
 }
 
+double distance_from_box(const PlacedPart& box, const Vector& point) {
+    const Vector d = subtract(point, box.center);
+    double square = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double outside = std::abs(dot(d, box.axes[i])) - box.half_extents[i];
+        if (outside > 0) square += outside * outside;
+    }
+    return std::sqrt(square);
+}
+
+// The point of the core at t from -1 to 1.
+Vector core_point(const PlacedPart& part, double t) {
+    Vector p = part.center;
+    for (std::size_t i = 0; i < 3; ++i) p[i] += t * part.half_extents[1] * part.axes[1][i];
+    return p;
+}
+
+// The least of a function of t that falls, then rises.
+template <class Function>
+double find_least(const Function& function) {
+    double low = -1, high = 1;
+    for (int i = 0; i < 80; ++i) {
+        const double first = low + (high - low) / 3, second = high - (high - low) / 3;
+        (function(first) < function(second) ? high : low) =
+            function(first) < function(second) ? second : first;
+    }
+    return function(0.5 * (low + high));
+}
+
+double overlap_box_capsule(const PlacedPart& box, const PlacedPart& capsule) {
+    const double core = overlap_boxes(box, capsule);
+    if (core > 0) return core + capsule.radius;
+    const double distance =
+        find_least([&](double t) { return distance_from_box(box, core_point(capsule, t)); });
+    return std::max(0.0, capsule.radius - distance);
+}
+
+// Balls are capsules whose core is a point.
+double overlap_round(const PlacedPart& a, const PlacedPart& b) {
+    const auto from_b = [&](const Vector& p) {
+        const Vector d = subtract(p, b.center);
+        const double half = b.half_extents[1];
+        const double along = std::clamp(dot(d, b.axes[1]), -half, half);
+        const double square = dot(d, d) - along * (2 * dot(d, b.axes[1]) - along);
+        return std::sqrt(std::max(0.0, square));
+    };
+    const double distance = a.form == Form::Capsule
+                                ? find_least([&](double t) { return from_b(core_point(a, t)); })
+                                : from_b(a.center);
+    return std::max(0.0, a.radius + b.radius - distance);
+}
+
 double overlap_box_sphere(const PlacedPart& box, const PlacedPart& sphere) {
     const Vector d = subtract(sphere.center, box.center);
     double outside = 0;  // squared distance from the box
@@ -84,11 +136,12 @@ PlacedPart place_part(const Part& part, const Vector& position, const Rotation& 
     Rotation q = rotation;
     for (double& component : q) component /= std::sqrt(square);
 
-    PlacedPart placed{.form = part.form,
-                      .center = position,
-                      .axes = {},
-                      .half_extents = part.half_extents,
-                      .radius = part.radius};
+    PlacedPart placed{
+        .form = part.form,
+        .center = position,
+        .axes = {},
+        .half_extents = part.form == Form::Box ? part.half_extents : Vector{0, part.half_height, 0},
+        .radius = part.radius};
     const Vector offset = turn(q, part.position);
     for (std::size_t i = 0; i < 3; ++i) {
         placed.center[i] += offset[i];
@@ -101,15 +154,15 @@ PlacedPart place_part(const Part& part, const Vector& position, const Rotation& 
 
 double measure_overlap(const PlacedPart& a, const PlacedPart& b) {
     if (a.form == Form::Box && b.form == Form::Box) return overlap_boxes(a, b);
-    if (a.form == Form::Box) return overlap_box_sphere(a, b);
-    if (b.form == Form::Box) return overlap_box_sphere(b, a);
-    const Vector d = subtract(b.center, a.center);
-    return std::max(0.0, a.radius + b.radius - std::sqrt(dot(d, d)));
+    if (b.form == Form::Box) return measure_overlap(b, a);
+    if (a.form == Form::Box)
+        return b.form == Form::Sphere ? overlap_box_sphere(a, b) : overlap_box_capsule(a, b);
+    return overlap_round(a, b);
 }
 
 Vector bound_part(const PlacedPart& part) {
-    if (part.form == Form::Sphere) return {part.radius, part.radius, part.radius};
-    return {reach(part, {1, 0, 0}), reach(part, {0, 1, 0}), reach(part, {0, 0, 1})};
+    const double r = part.form == Form::Box ? 0 : part.radius;
+    return {reach(part, {1, 0, 0}) + r, reach(part, {0, 1, 0}) + r, reach(part, {0, 0, 1}) + r};
 }
 
 }  // namespace cairn::bench

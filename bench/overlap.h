@@ -1,12 +1,13 @@
 #pragma once
 // How deep two convex parts overlap: the shortest way out, which for boxes is one of the fifteen
-// separating axes, and for anything with a sphere a closed form. binary64 throughout.
+// separating axes, and for anything round a closed form or a search. binary64 throughout.
 
 #include "scene.h"
 
 namespace cairn::bench {
 
-/// A part in the world: its axes are the columns of its rotation.
+/// A part in the world: its axes are the columns of its rotation. Of a sphere or capsule the half
+/// extents are those of its core, a box of no width, which is grown by the radius.
 struct PlacedPart {
     Form form = Form::Box;
     Vector center = {};

@@ -111,6 +111,17 @@ double kinetic_energy(const Part& part, double density, const BodyMotion& motion
         const double mass = 4.0 / 3 * pi * part.radius * part.radius * part.radius * density;
         return 0.5 * mass * (dot(v, v) + 0.4 * part.radius * part.radius * dot(w, w));
     }
+    if (part.form == Form::Capsule) {
+        const double r = part.radius, l = 2 * part.half_height;
+        const double middle = pi * r * r * l * density;
+        const double ends = 4.0 / 3 * pi * r * r * r * density;
+        const double along = middle * r * r / 2 + ends * 0.4 * r * r;
+        const double across =
+            middle * (l * l / 12 + r * r / 4) + ends * (0.4 * r * r + l * l / 4 + 0.375 * l * r);
+        const double spin = dot(w, place_part(part, motion.position, motion.rotation).axes[1]);
+        return 0.5 * ((middle + ends) * dot(v, v) + across * (dot(w, w) - spin * spin) +
+                      along * spin * spin);
+    }
     const Vector& h = part.half_extents;
     const double mass = 8 * h[0] * h[1] * h[2] * density;
     const PlacedPart placed = place_part(part, motion.position, motion.rotation);

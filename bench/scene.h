@@ -1,7 +1,7 @@
 #pragma once
 // A benchmark's scene as plain data, described once and built by every engine's adapter: bodies
-// made of boxes and spheres, what is asked of the whole, which bodies ought to stand, and when a
-// body comes in later. SI units, y up, rotations [x, y, z, w].
+// made of boxes, spheres and capsules, what is asked of the whole, which bodies ought to stand, and
+// when a body comes in later. SI units, y up, rotations [x, y, z, w].
 //
 // Parts are kept in a pool, and equal ones share an entry, so that an adapter can share its shapes
 // as a user of that engine would.
@@ -17,13 +17,14 @@ namespace cairn::bench {
 using Vector = std::array<double, 3>;
 using Rotation = std::array<double, 4>;
 
-enum class Form : std::uint8_t { Box, Sphere };
+enum class Form : std::uint8_t { Box, Sphere, Capsule };
 
 /// A convex piece of a body, in the body's frame.
 struct Part {
     Form form = Form::Box;
     Vector half_extents = {};  // m, of a box
-    double radius = 0;         // m, of a sphere
+    double radius = 0;         // m, of a sphere or capsule
+    double half_height = 0;    // m, of a capsule's cylindrical part, along its y
     Vector position = {};
     Rotation rotation = {0, 0, 0, 1};
     friend bool operator==(const Part&, const Part&) = default;

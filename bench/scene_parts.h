@@ -12,6 +12,9 @@ Vector cube(double half);
 std::size_t add_box(BenchScene& scene, const Vector& position, const Vector& half_extents,
                     double density, const Rotation& rotation = {0, 0, 0, 1});
 std::size_t add_sphere(BenchScene& scene, const Vector& position, double radius, double density);
+/// `half_height` is of the cylindrical part, along the body's y.
+std::size_t add_capsule(BenchScene& scene, const Vector& position, double half_height,
+                        double radius, double density, const Rotation& rotation = {0, 0, 0, 1});
 std::size_t add_static_box(BenchScene& scene, const Vector& position, const Vector& half_extents);
 
 /// Ground of half extents (half_width, 1, half_width) with its top at 0: a box, not a plane, so

@@ -23,7 +23,8 @@ constexpr SceneEntry entries[] = {
     {"seesaw", "four cubes of mass 1, 10, 100, 1000, heaviest on top", 600, make_seesaw},
     {"spheres5000", "5000 spheres into a pit", 600, make_spheres5000},
     {"spheres10000", "10000 spheres into a pit", 600, make_spheres10000},
-    {"mixed4096", "4096 boxes and spheres of many sizes into a pit", 600, make_mixed4096},
+    {"mixed4096", "4096 boxes, spheres and capsules into a pit", 600, make_mixed4096},
+    {"capsules1000", "1000 capsules into a pit", 600, make_capsules1000},
     {"washer", "8000 cubes in a turning drum", 1000, make_washer},
     {"large-world", "a million static boxes, a sphere every 5 steps", 500, make_large_world},
     {"field", "2000 pyramids of six asleep, one kept awake by a turntable", 600, make_field},
@@ -75,6 +76,15 @@ std::size_t add_sphere(BenchScene& scene, const Vector& position, double radius,
                     {.mobility = Mobility::Dynamic,
                      .density = static_cast<float>(density),
                      .position = position});
+}
+
+std::size_t add_capsule(BenchScene& scene, const Vector& position, double half_height,
+                        double radius, double density, const Rotation& rotation) {
+    return add_body(scene, {.form = Form::Capsule, .radius = radius, .half_height = half_height},
+                    {.mobility = Mobility::Dynamic,
+                     .density = static_cast<float>(density),
+                     .position = position,
+                     .rotation = rotation});
 }
 
 std::size_t add_static_box(BenchScene& scene, const Vector& position, const Vector& half_extents) {

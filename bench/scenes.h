@@ -37,6 +37,7 @@ BenchScene make_seesaw();
 BenchScene make_spheres5000();
 BenchScene make_spheres10000();
 BenchScene make_mixed4096();
+BenchScene make_capsules1000();
 BenchScene make_washer();
 
 BenchScene make_large_world();

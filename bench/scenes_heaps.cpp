@@ -47,7 +47,7 @@ BenchScene make_mixed4096() {
     add_ground(scene, 100);
     add_pit(scene, 10, 30);
     SplitMix64 random(4096);
-    // 96 shapes that take turns, every other one a box.
+    // 96 shapes, in turn a box, a ball and a capsule.
     std::vector<Vector> sizes(96);
     for (Vector& size : sizes) {
         for (double& length : size) length = random.draw_between(0.2, 0.5);
@@ -57,12 +57,30 @@ BenchScene make_mixed4096() {
         const auto layer = static_cast<double>(i / (side * side));
         const Vector position = {pitch * (place % side - 0.5 * (side - 1)), 1 + 1.5 * layer,
                                  pitch * (place / side - 0.5 * (side - 1))};
-        const Vector& size = sizes[i % sizes.size()];
-        if (i % 2 == 0) {
-            add_box(scene, position, size, 1000, random.draw_rotation());
-        } else {
-            add_sphere(scene, position, size[0], 1000);
-        }
+        const std::size_t turn = i % sizes.size();
+        const Vector& size = sizes[turn];
+        const Rotation rotation = random.draw_rotation();
+        if (turn % 3 == 0) add_box(scene, position, size, 1000, rotation);
+        if (turn % 3 == 1) add_sphere(scene, position, size[0], 1000);
+        if (turn % 3 == 2) add_capsule(scene, position, size[1], size[0], 1000, rotation);
+    }
+    return scene;
+}
+
+BenchScene make_capsules1000() {
+    constexpr int side = 10;
+    constexpr double pitch = 1;
+    BenchScene scene;
+    scene.gravity = 9.81;
+    scene.friction = 0.5;
+    add_ground(scene, 100);
+    add_pit(scene, 5, 20);
+    SplitMix64 random(1000);
+    for (int i = 0; i < 1000; ++i) {
+        const int layer = i / (side * side);
+        const Vector position = {pitch * (i % side - 0.5 * (side - 1)), 0.6 + layer,
+                                 pitch * (i / side % side - 0.5 * (side - 1))};
+        add_capsule(scene, position, 0.3, 0.2, 1000, random.draw_rotation());
     }
     return scene;
 }

@@ -28,6 +28,7 @@ const moments = {
   "card-house": { time: 0.5 },
   "mass-ratio": { time: 2, options: "&contacts=on&normals=on" },
   pit: { time: 1.1 },
+  logs: { time: 1 },
   billiards: { time: 0.5, options: "&velocities=on" },
   cradle: { time: 1, options: "&velocities=on" },
   "t-handle": { time: 2.1 },

@@ -20,6 +20,15 @@ struct Box {
     friend constexpr bool operator==(const Box&, const Box&) = default;
 };
 
+/// All points within `radius` of a segment of length `height` along local y, about the local
+/// origin: a cylinder with a half ball on either end. radius > 0, metres; height >= 0, metres: of
+/// the cylindrical part, with 0 a ball.
+struct Capsule {
+    float radius = 0.5f;
+    float height = 1;
+    friend constexpr bool operator==(const Capsule&, const Capsule&) = default;
+};
+
 /// A half-space: solid where normal . x <= offset. Static bodies only. `normal` is normalised when
 /// the shape is created; offset in metres along the unit normal.
 struct Plane {
@@ -28,7 +37,7 @@ struct Plane {
     friend constexpr bool operator==(const Plane&, const Plane&) = default;
 };
 
-using Geometry = std::variant<Sphere, Box, Plane>;
+using Geometry = std::variant<Sphere, Box, Plane, Capsule>;
 
 /// How a surface rubs and bounces. Where two meet: friction is the geometric mean, restitution,
 /// rolling and spinning friction the larger of the two.

@@ -1,12 +1,13 @@
 // Contact points from an axis; see build_manifold.h.
 //
-// What meets along the axis decides: a round shape touches in one point, a plane in the vertices of
-// the box's lowest face; two boxes have a file of their own.
+// What meets along the axis decides: a ball touches in one point, a plane in the vertices of the
+// box's lowest face; two boxes and capsules have files of their own.
 
 #include "contact/build_manifold.h"
 
 #include "contact/feature.h"
 #include "contact/manifold_box_box.h"
+#include "contact/manifold_capsule.h"
 #include "shape/visit.h"
 
 namespace cairn {
@@ -40,6 +41,31 @@ void push_plane_box(Manifold& manifold, Three half_extents, const Mat3& box_axes
     }
 }
 
+Segment core_of(const Capsule& capsule, Vec3 center, Vec3 axis) {
+    return {center, axis, 0.5f * capsule.height};
+}
+
+// A capsule against anything but a ball; the other shape is one of two.
+void push_capsule(Manifold& manifold, const Geometry& a, const Geometry& b, const Pose& b_in_a,
+                  const Axis& axis, float max_separation) {
+    const Mat3 axes_b = to_matrix(b_in_a.rotation);
+    const Capsule* capsule_a = std::get_if<Capsule>(&a);
+    const Capsule* capsule_b = std::get_if<Capsule>(&b);
+    const Vec3 t = b_in_a.position;
+    if (capsule_a && capsule_b)
+        return push_capsule_capsule(manifold, core_of(*capsule_a, {}, {0, 1, 0}), capsule_a->radius,
+                                    core_of(*capsule_b, t, axes_b.y), capsule_b->radius, axis,
+                                    max_separation);
+    const Capsule& capsule = capsule_a ? *capsule_a : *capsule_b;
+    const Geometry& other = capsule_a ? b : a;
+    const Segment core =
+        capsule_a ? core_of(capsule, -t, {0, 1, 0}) : core_of(capsule, t, axes_b.y);
+    if (const Box* box = std::get_if<Box>(&other))
+        return push_box_capsule(manifold, box->half_extents, capsule_a ? axes_b : Mat3{}, core,
+                                capsule.radius, axis, !capsule_a, max_separation);
+    push_plane_capsule(manifold, core, capsule.radius, axis, !capsule_a, max_separation);
+}
+
 }  // namespace
 
 Manifold build_manifold(const Geometry& a, const Geometry& b, const Pose& b_in_a, const Axis& axis,
@@ -58,8 +84,10 @@ Manifold build_manifold(const Geometry& a, const Geometry& b, const Pose& b_in_a
     } else if (box_a && kind_of(b) == ShapeKind::Plane) {
         push_plane_box(manifold, three(box_a->half_extents), Mat3{}, -three(b_in_a.position),
                        -three(axis.normal), false, axis.separation, max_separation);
-    } else {
+    } else if (kind_of(a) == ShapeKind::Sphere || kind_of(b) == ShapeKind::Sphere) {
         push_witness(manifold, axis, 0);
+    } else {
+        push_capsule(manifold, a, b, b_in_a, axis, max_separation);
     }
     return manifold;
 }

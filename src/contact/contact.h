@@ -14,7 +14,7 @@ namespace cairn {
 
 // The arm from a body's center of mass to a contact point. `core` is fixed in the body (its frame)
 // and turns with it; `offset` is fixed in the world: the point of a ball that touches does not turn
-// with the ball.
+// with the ball, nor a capsule's, below its core.
 struct Arm {
     Vec3 core;
     Vec3 offset;

@@ -1,12 +1,14 @@
 #pragma once
-// Names for the features of boxes, and for the pair of them that meets in a contact point.
+// Names for the features of boxes and capsules, and for the pair of them that meets in a contact
+// point.
 //
 // A feature of a box is the set of the faces that it lies on, a bit a face: a face has one, an edge
 // two, a vertex three. What two features share is the smallest feature that holds both: the sets of
 // an edge's two ends have the edge's two faces in common. A pair of features is the set of A's
 // faces and B's: it is the same whenever the same features meet, in whatever order the points were
-// found and whichever face was clipped against which. Spheres and planes, which have one feature
-// only, add nothing.
+// found and whichever face was clipped against which. A capsule's two ends are named as the faces
+// of a box across y; where it touches along its side, and for spheres and planes, which have one
+// feature only, nothing is added.
 
 #include <cstdint>
 

@@ -3,8 +3,8 @@
 //
 // Each function answers for one pair of kinds, in the frame and the order named by its arguments;
 // the pair table turns the answer round where the pair comes in the other order. Frames: the
-// vectors between the shapes and the box's axes are given along some common axes (shape A's), and
-// so is the answer.
+// vectors between the shapes and the axes of boxes and capsules are given along some common axes
+// (shape A's), and so is the answer.
 
 #include "cairn/shape.h"
 #include "math/mat3.h"
@@ -25,5 +25,23 @@ Axis find_axis_plane_box(Vec3 normal, float height, Vec3 offset, const Box& box,
 
 // A box and a ball whose centre lies `offset` from the box's. From the box to the ball.
 Axis find_axis_box_sphere(const Box& box, const Mat3& box_axes, const Sphere& sphere, Vec3 offset);
+
+// A capsule and a ball whose centre lies `offset` from the capsule's; the axis is the direction of
+// the capsule's length, unit. Where the centre lies on it they part across it.
+Axis find_axis_capsule_sphere(const Capsule& capsule, Vec3 capsule_axis, const Sphere& sphere,
+                              Vec3 offset);
+
+// Two capsules. Where their cores cross they part across both.
+Axis find_axis_capsule_capsule(const Capsule& first, Vec3 first_axis, const Capsule& second,
+                               Vec3 second_axis, Vec3 offset);
+
+// A half-space and a capsule whose centre lies `height` above the surface. From the plane to the
+// capsule.
+Axis find_axis_plane_capsule(Vec3 normal, float height, Vec3 offset, const Capsule& capsule,
+                             Vec3 capsule_axis);
+
+// A box and a capsule whose centre lies `offset` from the box's. From the box to the capsule.
+Axis find_axis_box_capsule(const Box& box, const Mat3& box_axes, const Capsule& capsule,
+                           Vec3 capsule_axis, Vec3 offset);
 
 }  // namespace cairn

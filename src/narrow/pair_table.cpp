@@ -76,6 +76,50 @@ Axis box_box(const Geometry& a, const Geometry& b, const Pose& b_in_a, NarrowPha
     return axis;
 }
 
+// Which way a capsule lies, turned by a pose.
+Vec3 capsule_axis(const Pose& pose) { return to_matrix(pose.rotation).y; }
+constexpr Vec3 own_axis = {0, 1, 0};
+
+Axis capsule_sphere(const Geometry& a, const Geometry& b, const Pose& b_in_a, NarrowPhase,
+                    AxisHint&) {
+    return find_axis_capsule_sphere(get<Capsule>(a), own_axis, get<Sphere>(b), b_in_a.position);
+}
+Axis sphere_capsule(const Geometry& a, const Geometry& b, const Pose& b_in_a, NarrowPhase,
+                    AxisHint&) {
+    return turned_round(find_axis_capsule_sphere(get<Capsule>(b), capsule_axis(b_in_a),
+                                                 get<Sphere>(a), -b_in_a.position));
+}
+
+Axis capsule_capsule(const Geometry& a, const Geometry& b, const Pose& b_in_a, NarrowPhase,
+                     AxisHint&) {
+    return find_axis_capsule_capsule(get<Capsule>(a), own_axis, get<Capsule>(b),
+                                     capsule_axis(b_in_a), b_in_a.position);
+}
+
+Axis plane_capsule(const Geometry& a, const Geometry& b, const Pose& b_in_a, NarrowPhase,
+                   AxisHint&) {
+    const Plane& plane = get<Plane>(a);
+    const float height = height_above(plane, plane.normal, b_in_a.position);
+    return find_axis_plane_capsule(plane.normal, height, b_in_a.position, get<Capsule>(b),
+                                   capsule_axis(b_in_a));
+}
+Axis capsule_plane(const Geometry& a, const Geometry& b, const Pose& b_in_a, NarrowPhase,
+                   AxisHint&) {
+    const Plane& plane = get<Plane>(b);
+    const Vec3 normal = rotate(b_in_a.rotation, plane.normal), offset = -b_in_a.position;
+    const float height = height_above(plane, normal, offset);
+    return turned_round(find_axis_plane_capsule(normal, height, offset, get<Capsule>(a), own_axis));
+}
+
+Axis box_capsule(const Geometry& a, const Geometry& b, const Pose& b_in_a, NarrowPhase, AxisHint&) {
+    return find_axis_box_capsule(get<Box>(a), Mat3{}, get<Capsule>(b), capsule_axis(b_in_a),
+                                 b_in_a.position);
+}
+Axis capsule_box(const Geometry& a, const Geometry& b, const Pose& b_in_a, NarrowPhase, AxisHint&) {
+    return turned_round(find_axis_box_capsule(get<Box>(b), to_matrix(b_in_a.rotation),
+                                              get<Capsule>(a), own_axis, -b_in_a.position));
+}
+
 // Two half-spaces are never moved against each other.
 Axis plane_plane(const Geometry&, const Geometry&, const Pose&, NarrowPhase, AxisHint&) {
     Axis apart;
@@ -87,9 +131,10 @@ using Row = std::array<FindAxis, shape_kind_count>;
 
 // Rows are A's kind, columns B's, both in the order of ShapeKind.
 constexpr std::array<Row, shape_kind_count> pair_table = {{
-    {sphere_sphere, sphere_box, sphere_plane},
-    {box_sphere, box_box, box_plane},
-    {plane_sphere, plane_box, plane_plane},
+    {sphere_sphere, sphere_box, sphere_plane, sphere_capsule},
+    {box_sphere, box_box, box_plane, box_capsule},
+    {plane_sphere, plane_box, plane_plane, plane_capsule},
+    {capsule_sphere, capsule_box, capsule_plane, capsule_capsule},
 }};
 
 constexpr bool has_no_hole() {

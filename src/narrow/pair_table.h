@@ -1,10 +1,11 @@
 #pragma once
 // Which function finds the axis of which pair of kinds: the whole narrow phase at a glance.
 //
-//              sphere          box             plane
-//   sphere     closed form     closed form     closed form
-//   box        closed form     SAT or GJK+EPA  closed form
-//   plane      closed form     closed form     never in touch
+//              sphere          box             plane           capsule
+//   sphere     closed form     closed form     closed form     closed form
+//   box        closed form     SAT or GJK+EPA  closed form     closed form
+//   plane      closed form     closed form     never in touch  closed form
+//   capsule    closed form     closed form     closed form     closed form
 //
 // A new kind of shape adds a row and a column; the table does not compile with a hole in it.
 

@@ -41,6 +41,7 @@ Scene make_dominoes(std::span<const double> values);
 Scene make_card_house(std::span<const double> values);
 Scene make_mass_ratio(std::span<const double> values);
 Scene make_pit(std::span<const double> values);
+Scene make_logs(std::span<const double> values);
 Scene make_billiards(std::span<const double> values);
 Scene make_cradle(std::span<const double> values);
 Scene make_t_handle(std::span<const double> values);

@@ -1,4 +1,5 @@
-// Built-in scenes of many contacts: pyramid, tower, dominoes, card house, mass ratio, pit.
+// Built-in scenes of many contacts: pyramid, tower, dominoes, card house, mass ratio, pit,
+// logs.
 
 #include <fmt/format.h>
 
@@ -158,6 +159,44 @@ Scene make_pit(std::span<const double> values) {
         const double yaw = random.between(0, 2 * pi), roll = random.between(0, 2 * pi);
         box.def.rotation = turn_about_y(yaw) * turn_about_x(roll);
         scene.bodies.push_back(box);
+    }
+    return scene;
+}
+
+Scene make_logs(std::span<const double> values) {
+    const int base = static_cast<int>(values[0]);
+    const double radius = 0.25, post_radius = 0.1,
+                 height = radius * (2 + (base - 1) * std::sqrt(3.0));
+    Scene scene;
+    scene.name = "Logs";
+    scene.description = fmt::format("{} logs, {} in the lowest row, each on the two below it.",
+                                    base * (base + 1) / 2, base);
+    scene.duration = 10;
+    const float far = narrow(3 + 0.6 * base);
+    scene.camera = {{0.55f * far, 0.5f * far, far}, {0, narrow(0.4 * height), 0}};
+    const Material bark = {.friction = narrow(values[2])};
+    scene.bodies.push_back(make_ground(bark));
+    if (values[1] > 0) {
+        const double beside = radius * base + post_radius;
+        for (const double x : {-beside, beside}) {
+            for (const double z : {-0.8, 0.8}) {
+                const Geometry post = Capsule{narrow(post_radius), narrow(height)};
+                const std::string name =
+                    fmt::format("post[{}x,{}z]", x < 0 ? '-' : '+', z < 0 ? '-' : '+');
+                scene.bodies.push_back(
+                    make_body(name, BodyKind::Static, {x, 0.4 * height, z}, post, bark));
+            }
+        }
+    }
+    for (int row = 0; row < base; ++row) {
+        for (int i = 0; i < base - row; ++i) {
+            const double x = 2 * radius * (i - 0.5 * (base - row - 1));
+            const double y = radius * (1 + row * std::sqrt(3.0));
+            SceneBody log = make_body(fmt::format("log[{},{}]", row, i), BodyKind::Dynamic,
+                                      {x, y, 0}, Capsule{narrow(radius), 2.5f}, bark, 700);
+            log.def.rotation = turn_about_x(pi / 2);
+            scene.bodies.push_back(log);
+        }
     }
     return scene;
 }

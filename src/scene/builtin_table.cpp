@@ -35,6 +35,10 @@ constexpr Parameter mass_ratio_parameters[] = {
 constexpr Parameter pit_parameters[] = {
     {"count", 300, 1, 100000, true, "bodies, boxes and spheres by turns"},
     {"seed", 1, 0, 1000000, true, "of the random sizes and turns"}};
+constexpr Parameter logs_parameters[] = {
+    {"base", 8, 1, 100, true, "logs in the lowest row"},
+    {"posts", 1, 0, 1, true, "1: four posts beside the lowest row; 0: none"},
+    {"friction", 0.6, 0, 2, false, "of the logs and the ground"}};
 constexpr Parameter billiards_parameters[] = {
     {"speed", 8, 0.1, 30, false, "of the cue ball, m/s"},
     {"cushions", 1, 0, 1, true, "1: a table with cushions; 0: none, the balls fly on"}};
@@ -84,6 +88,10 @@ constexpr Builtin table[] = {
      make_mass_ratio},
     {"pit", "boxes and spheres pour into a walled pit",
      "the heap comes to rest and nothing escapes", pit_parameters, make_pit},
+    {"logs", "a pile of logs between four posts",
+     "it stays as it was put; without posts friction alone holds two rows, and higher piles roll "
+     "apart",
+     logs_parameters, make_logs},
     {"billiards", "a cue ball breaks a rack of fifteen",
      "the rack opens almost as its own mirror image; momentum holds until the first cushion",
      billiards_parameters, make_billiards},

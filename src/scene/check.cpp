@@ -25,6 +25,9 @@ Extent measure(const BodyDef& def) {
             const Vec3& half = box->half_extents;
             least = 2 * widen(std::min({half.x, half.y, half.z}));
             most = 2 * find_length(half);
+        } else if (const auto* capsule = std::get_if<Capsule>(&shape.geometry)) {
+            least = 2 * widen(capsule->radius);
+            most = least + widen(capsule->height);
         } else {
             continue;
         }

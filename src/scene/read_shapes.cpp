@@ -13,7 +13,7 @@ namespace cairn::scene {
 
 namespace {
 
-constexpr std::string_view supported_shapes[] = {"sphere", "box", "plane"};
+constexpr std::string_view supported_shapes[] = {"sphere", "box", "capsule", "plane"};
 constexpr std::string_view all_shapes[] = {"sphere", "box",       "capsule",     "cylinder",
                                            "cone",   "ellipsoid", "hull",        "compound",
                                            "plane",  "mesh",      "height_field"};
@@ -29,6 +29,7 @@ std::vector<std::string_view> list_shape_keys(std::string_view kind) {
     keys.push_back("sensor");
     if (kind == "sphere") keys.push_back("radius");
     if (kind == "box") keys.insert(keys.end(), {"half_extents", "rounding"});
+    if (kind == "capsule") keys.insert(keys.end(), {"radius", "height"});
     if (kind == "plane") keys.insert(keys.end(), {"normal", "offset"});
     return keys;
 }
@@ -67,6 +68,14 @@ Geometry read_geometry(std::string_view kind, const Fields& fields) {
     if (kind == "box") {
         const JsonValue& half_extents = fields.require("half_extents", "[x, y, z], metres");
         return Box{read_vec3(half_extents, fields.place("half_extents"), positive)};
+    }
+    if (kind == "capsule") {
+        Capsule capsule;
+        fields.require("radius", "metres, greater than 0");
+        fields.read("radius", capsule.radius, positive);
+        fields.require("height", "metres, of the cylindrical part");
+        fields.read("height", capsule.height, not_negative);
+        return capsule;
     }
     Plane plane;
     fields.require("normal", "[x, y, z], out of the solid");

@@ -42,6 +42,9 @@ struct GeometryWriter {
     json operator()(const Box& b) const {
         return {{"kind", "box"}, {"half_extents", to_json(b.half_extents)}};
     }
+    json operator()(const Capsule& c) const {
+        return {{"kind", "capsule"}, {"radius", c.radius}, {"height", c.height}};
+    }
     json operator()(const Plane& p) const {
         return {{"kind", "plane"}, {"normal", to_json(p.normal)}, {"offset", p.offset}};
     }
@@ -51,6 +54,9 @@ struct GeometryWriter {
 struct ReachFinder {
     double operator()(const Sphere& s) const { return static_cast<double>(s.radius); }
     double operator()(const Box& b) const { return static_cast<double>(length(b.half_extents)); }
+    double operator()(const Capsule& c) const {
+        return 0.5 * static_cast<double>(c.height) + static_cast<double>(c.radius);
+    }
     double operator()(const Plane&) const { return 0; }
 };
 

@@ -32,6 +32,10 @@ void write_shape(JsonWriter& json, const ShapeDef& shape, const std::string& mat
         json.member("kind", "sphere").member("radius", sphere->radius);
     } else if (const auto* box = std::get_if<Box>(&shape.geometry)) {
         json.member("kind", "box").member("half_extents", box->half_extents);
+    } else if (const auto* capsule = std::get_if<Capsule>(&shape.geometry)) {
+        json.member("kind", "capsule")
+            .member("radius", capsule->radius)
+            .member("height", capsule->height);
     } else if (const auto* plane = std::get_if<Plane>(&shape.geometry)) {
         json.member("kind", "plane")
             .member("normal", plane->normal)

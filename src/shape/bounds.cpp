@@ -35,6 +35,13 @@ Vec3 bounds_half_extents(const Geometry& geometry, const Mat3& r) {
             return Vec3{reach(r.x.x, r.y.x, r.z.x, h), reach(r.x.y, r.y.y, r.z.y, h),
                         reach(r.x.z, r.y.z, r.z.z, h)};
         },
+        [&](const Capsule& capsule) {
+            const double half = 0.5 * double(capsule.height), radius = capsule.radius;
+            const Vec3 axis = absolute(r.y);
+            return Vec3{round_up(half * double(axis.x) + radius),
+                        round_up(half * double(axis.y) + radius),
+                        round_up(half * double(axis.z) + radius)};
+        },
         // Centred on the origin, a half-space that goes on to one side needs both.
         [](const Plane&) {
             return Vec3{infinite, infinite, infinite};
@@ -48,6 +55,7 @@ float smallest_half_extent(const Geometry& geometry) {
             const Vec3 h = box.half_extents;
             return min(h.x, min(h.y, h.z));
         },
+        [](const Capsule& capsule) { return capsule.radius; },
         [](const Plane&) { return infinite; });
 }
 
@@ -57,6 +65,9 @@ float bounding_radius(const Geometry& geometry) {
         [](const Box& box) {
             const double x = box.half_extents.x, y = box.half_extents.y, z = box.half_extents.z;
             return round_up(square_root(x * x + y * y + z * z));
+        },
+        [](const Capsule& capsule) {
+            return round_up(0.5 * double(capsule.height) + double(capsule.radius));
         },
         [](const Plane&) { return infinite; });
 }

@@ -2,6 +2,9 @@
 //
 //   sphere   m = rho 4/3 pi r^3    I = 2/5 m r^2
 //   box      m = rho 8 a b c       Ixx = m/3 (b^2 + c^2), a, b, c half extents
+//   capsule  c = rho pi r^2 h, s = rho 4/3 pi r^3, m = c + s: cylinder and caps
+//                                  Iyy = c r^2/2 + s 2/5 r^2
+//                                  Ixx = Izz = c (h^2/12 + r^2/4) + s (2/5 r^2 + h^2/4 + 3/8 h r)
 //
 // Several shapes: the center of mass is the weighted mean; each tensor is turned into the body's
 // frame and moved to the common center by the parallel axis theorem, I + m (|d|^2 1 - d d^T).
@@ -41,6 +44,15 @@ Solid solid_of(const ShapeDef& shape) {
             const double mass = density * 8.0 * a * b * c, third = mass / 3.0;
             return Solid{
                 mass, {third * (b * b + c * c), third * (a * a + c * c), third * (a * a + b * b)}};
+        },
+        [&](const Capsule& capsule) {
+            const double r = capsule.radius, h = capsule.height;
+            const double disc = density * std::numbers::pi * r * r;
+            const double cylinder = disc * h, caps = disc * (4.0 / 3.0) * r;
+            const double across = cylinder * (h * h / 12 + r * r / 4) +
+                                  caps * (0.4 * r * r + h * h / 4 + 0.375 * h * r);
+            const double along = cylinder * 0.5 * r * r + caps * 0.4 * r * r;
+            return Solid{cylinder + caps, {across, along, across}};
         },
         [](const Plane&) { return Solid{}; });
 }

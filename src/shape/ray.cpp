@@ -1,6 +1,9 @@
 // Rays and distances in closed form; see ray.h.
 //
 // Symbols: o origin, d unit direction, t distance along the ray, h half extents, r radius.
+//
+// A capsule is entered by its side or by the end beyond which the ray comes into the endless
+// cylinder about it.
 
 #include "shape/ray.h"
 
@@ -81,6 +84,45 @@ bool cast_at_box(const Box& box, const ShapeRay& ray, ShapeHit& hit) {
     return true;
 }
 
+// From a point to the capsule's core, a segment along y.
+Vec3d from_core(double half, Vec3d point) {
+    const double y = point.y;
+    return {point.x, y < -half ? y + half : y > half ? y - half : 0, point.z};
+}
+
+bool cast_at_capsule(const Capsule& capsule, const ShapeRay& ray, ShapeHit& hit) {
+    const Vec3d o = ray.origin, d = ray.direction;
+    const double r = double(capsule.radius), half = 0.5 * double(capsule.height);
+    const Vec3d out = from_core(half, o);
+    const double excess = dot(out, out) - r * r;
+    if (excess < 0) return begin_inside(ray, hit);
+    if (excess == 0) {
+        if (dot(out, d) >= 0) return false;
+        hit = {0, (1 / length(out)) * out, false};
+        return true;
+    }
+    // Where the ray comes into the cylinder, and how high that is.
+    const double across = d.x * d.x + d.z * d.z;
+    double height = d.y < 0 ? infinite : -infinite;
+    if (across > 0) {
+        const double along = (o.x * d.x + o.z * d.z) / across;
+        const Vec3d nearest = {o.x - along * d.x, 0, o.z - along * d.z};
+        const double half_chord_squared = (r * r - dot(nearest, nearest)) / across;
+        if (half_chord_squared < 0) return false;
+        const double half_chord = square_root(half_chord_squared);
+        const double t = -along - half_chord;
+        height = o.y + t * d.y;
+        if (absolute(height) <= half) {
+            if (t < 0 || !(t <= ray.length)) return false;
+            const Vec3d outward = {nearest.x - half_chord * d.x, 0, nearest.z - half_chord * d.z};
+            hit = {t, (1 / length(outward)) * outward, false};
+            return true;
+        }
+    }
+    const Vec3d end = {0, height < 0 ? -half : half, 0};
+    return cast_at_sphere(Sphere{capsule.radius}, {o - end, d, ray.length}, hit);
+}
+
 bool cast_at_plane(const Plane& plane, const ShapeRay& ray, ShapeHit& hit) {
     const Vec3d n = widen(plane.normal);
     const double height = dot(n, ray.origin) - double(plane.offset);
@@ -116,6 +158,13 @@ NearestPoint find_nearest_of_box(const Box& box, Vec3d point) {
     return {distance, {outward[0] / distance, outward[1] / distance, outward[2] / distance}};
 }
 
+NearestPoint find_nearest_of_capsule(const Capsule& capsule, Vec3d point) {
+    const Vec3d out = from_core(0.5 * double(capsule.height), point);
+    const double distance = length(out);
+    const Vec3d normal = distance > 0 ? (1 / distance) * out : Vec3d{1, 0, 0};
+    return {distance - double(capsule.radius), normal};
+}
+
 NearestPoint find_nearest_of_plane(const Plane& plane, Vec3d point) {
     const Vec3d n = widen(plane.normal);
     const double scale = 1 / length(n);
@@ -128,14 +177,16 @@ bool cast_ray(const Geometry& geometry, const ShapeRay& ray, ShapeHit& hit) {
     return visit_shape(
         geometry, [&](const Sphere& sphere) { return cast_at_sphere(sphere, ray, hit); },
         [&](const Box& box) { return cast_at_box(box, ray, hit); },
-        [&](const Plane& plane) { return cast_at_plane(plane, ray, hit); });
+        [&](const Plane& plane) { return cast_at_plane(plane, ray, hit); },
+        [&](const Capsule& capsule) { return cast_at_capsule(capsule, ray, hit); });
 }
 
 NearestPoint find_nearest_point(const Geometry& geometry, Vec3d point) {
     return visit_shape(
         geometry, [&](const Sphere& sphere) { return find_nearest_of_sphere(sphere, point); },
         [&](const Box& box) { return find_nearest_of_box(box, point); },
-        [&](const Plane& plane) { return find_nearest_of_plane(plane, point); });
+        [&](const Plane& plane) { return find_nearest_of_plane(plane, point); },
+        [&](const Capsule& capsule) { return find_nearest_of_capsule(capsule, point); });
 }
 
 }  // namespace cairn

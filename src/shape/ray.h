@@ -36,7 +36,8 @@ struct NearestPoint {
 };
 
 // The nearest point of the surface is point - distance * normal. In the middle of a ball the normal
-// is y; where faces of a box are equally near, x comes before y and y before z.
+// is y, on the core of a capsule x; where faces of a box are equally near, x comes before y and y
+// before z.
 NearestPoint find_nearest_point(const Geometry& geometry, Vec3d point);
 
 }  // namespace cairn

@@ -1,5 +1,6 @@
 #pragma once
-// One answer a kind of shape: visit_shape(geometry, sphere_case, box_case, plane_case).
+// One answer a kind of shape: visit_shape(geometry, sphere_case, box_case, plane_case,
+// capsule_case).
 //
 // The cases may stand in any order; a kind that is missing does not compile. Unlike std::visit it
 // cannot throw, so it works where exceptions are off.
@@ -12,7 +13,7 @@
 namespace cairn {
 
 // The kinds of shapes, in the order of Geometry's alternatives.
-enum class ShapeKind : unsigned char { Sphere, Box, Plane };
+enum class ShapeKind : unsigned char { Sphere, Box, Plane, Capsule };
 inline constexpr std::size_t shape_kind_count = std::variant_size_v<Geometry>;
 
 inline ShapeKind kind_of(const Geometry& geometry) { return ShapeKind(geometry.index()); }
@@ -30,9 +31,10 @@ auto visit_shape(const Geometry& geometry, Cases... cases) {
     switch (kind_of(geometry)) {
         case ShapeKind::Sphere: return all(*std::get_if<Sphere>(&geometry));
         case ShapeKind::Box: return all(*std::get_if<Box>(&geometry));
-        case ShapeKind::Plane: break;
+        case ShapeKind::Plane: return all(*std::get_if<Plane>(&geometry));
+        case ShapeKind::Capsule: break;
     }
-    return all(*std::get_if<Plane>(&geometry));
+    return all(*std::get_if<Capsule>(&geometry));
 }
 
 static_assert(
@@ -41,6 +43,8 @@ static_assert(
     std::is_same_v<std::variant_alternative_t<std::size_t(ShapeKind::Box), Geometry>, Box>);
 static_assert(
     std::is_same_v<std::variant_alternative_t<std::size_t(ShapeKind::Plane), Geometry>, Plane>);
-static_assert(shape_kind_count == 3, "a new kind of shape needs its case above");
+static_assert(
+    std::is_same_v<std::variant_alternative_t<std::size_t(ShapeKind::Capsule), Geometry>, Capsule>);
+static_assert(shape_kind_count == 4, "a new kind of shape needs its case above");
 
 }  // namespace cairn

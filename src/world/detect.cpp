@@ -23,7 +23,11 @@ constexpr float skin_share = 0.01f;
 // Room in a fat box, as a share of the shape: more of it makes more pairs, less more updates.
 constexpr float fat_share = 0.1f;
 
-bool is_round(const Geometry& geometry) { return std::holds_alternative<Sphere>(geometry); }
+// Whether what touches does not turn with the shape: a radius about a core.
+bool is_round(const Geometry& geometry) {
+    return std::holds_alternative<Sphere>(geometry) || std::holds_alternative<Capsule>(geometry);
+}
+bool is_ball(const Geometry& geometry) { return std::holds_alternative<Sphere>(geometry); }
 bool is_plane(const Geometry& geometry) { return std::holds_alternative<Plane>(geometry); }
 
 // How far a shape's points may travel in dt seconds, beyond the smooth path of its center of mass.
@@ -42,8 +46,15 @@ float fall_in(const WorldState& world, float dt) {
 Arm make_arm(const ShapeSeat& seat, Vec3 point) {
     return {seat.offset + (seat.is_turned ? rotate(seat.local_pose.rotation, point) : point), {}};
 }
-// To a point of a round shape, world axes: the touching point stays below the center.
-Arm make_round_arm(const ShapeSeat& seat, Vec3 point) { return {seat.offset, point}; }
+// To a point of a round shape, along world axes from its origin: the core turns with the body, the
+// touching point stays below it.
+Arm make_round_arm(const ShapeSeat& seat, const Geometry& geometry, const Mat3& axes, Vec3 point) {
+    const Capsule* capsule = std::get_if<Capsule>(&geometry);
+    if (!capsule) return {seat.offset, point};
+    const float half = 0.5f * capsule->height;
+    const float place = clamp(dot(axes.y, point), -half, half);
+    return {make_arm(seat, {0, place, 0}).core, point - place * axes.y};
+}
 
 BodyPlace place_of(const WorldState& world, std::uint32_t body) {
     return {world.positions[body], world.rotations[body]};
@@ -404,8 +415,8 @@ bool find_meeting(const WorldState& world, std::uint32_t shape_a, std::uint32_t 
     const Vec3 between = (world.positions[b.body] - world.positions[a.body]) +
                          (shape_offset(world, b) - shape_offset(world, a));
     // A ball's axes are the world's.
-    const Quat rotation_b = is_round(b.geometry) ? Quat{} : shape_rotation(world, b);
-    meeting.rotation_a = is_round(a.geometry) ? Quat{} : shape_rotation(world, a);
+    const Quat rotation_b = is_ball(b.geometry) ? Quat{} : shape_rotation(world, b);
+    meeting.rotation_a = is_ball(a.geometry) ? Quat{} : shape_rotation(world, a);
     meeting.b_in_a = {rotate_inverse(meeting.rotation_a, between),
                       conjugate(meeting.rotation_a) * rotation_b};
     if (!is_finite(meeting.b_in_a.position)) return false;
@@ -430,7 +441,7 @@ void build_contact_points(const WorldState& world, const Meeting& meeting, float
     // B's arm goes by way of the world, so that both end at the same place there to the last digit:
     // what a turn between the two frames rounds away moves a house of cards.
     const Mat3 axes_a = to_matrix(meeting.rotation_a);
-    const Mat3 axes_b = round_b ? Mat3{} : to_matrix(shape_rotation(world, b));
+    const Mat3 axes_b = is_ball(b.geometry) ? Mat3{} : to_matrix(shape_rotation(world, b));
     contact.normal = normalize_or(axes_a * manifold.normal, {0, 1, 0});
     contact.point_count = 0;
     for (int i = 0; i < manifold.point_count; ++i) {
@@ -440,14 +451,14 @@ void build_contact_points(const WorldState& world, const Meeting& meeting, float
         ContactPoint& point = contact.points[std::size_t(contact.point_count++)];
         point = {};
         const Vec3 from_b = axes_a * from.from_b;
-        point.arm_a =
-            round_a ? make_round_arm(seat_a, axes_a * from.from_a) : make_arm(seat_a, from.from_a);
-        point.arm_b = round_b ? make_round_arm(seat_b, from_b)
+        point.arm_a = round_a ? make_round_arm(seat_a, a.geometry, axes_a, axes_a * from.from_a)
+                              : make_arm(seat_a, from.from_a);
+        point.arm_b = round_b ? make_round_arm(seat_b, b.geometry, axes_b, from_b)
                               : make_arm(seat_b, multiply_transposed(axes_b, from_b));
         point.separation = from.separation;
         point.feature = from.feature;
     }
-    // A ball's arms do not turn with it.
+    // A ball's arms do not turn with it, a capsule's end does.
     const float short_arm = 1e-3f * contact.size;
     const auto turns = [&](Vec3 core) { return length_squared(core) > short_arm * short_arm; };
     const bool any = contact.point_count > 0;

@@ -108,6 +108,15 @@ Refusal check_geometry(const Path& name, const Geometry& geometry, BodyKind kind
                         check_length(Path(name, ".half_extents.y"), box->half_extents.y),
                         check_length(Path(name, ".half_extents.z"), box->half_extents.z));
     }
+    if (const auto* capsule = std::get_if<Capsule>(&geometry)) {
+        if (Refusal r = check_length(Path(name, ".radius"), capsule->radius)) return r;
+        const Path height(name, ".height");
+        if (Refusal r = check_finite(height, double(capsule->height))) return r;
+        if (capsule->height < 0 || capsule->height > largest_length)
+            return refuse(ErrorCode::OutOfRange, height, format(double(capsule->height)),
+                          "0 to 1e9 metres");
+        return {};
+    }
     const auto& plane = *std::get_if<Plane>(&geometry);
     if (kind != BodyKind::Static) {
         return refuse(ErrorCode::OutOfRange, name, "a plane on a body that is not static",

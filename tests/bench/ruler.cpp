@@ -95,6 +95,24 @@ TEST_CASE("the ruler and the library agree on how deep boxes overlap") {
     CHECK(overlapping > 1000);
 }
 
+TEST_CASE("a capsule overlaps balls, capsules and boxes by what its core and radius say") {
+    const Part rod{.form = Form::Capsule, .radius = 0.2, .half_height = 1};
+    const double half = std::sqrt(0.5);
+    const Rotation level = {0, 0, half, half};
+    CHECK(measure(rod, {0, 0, 0}, upright, ball, {0.6, 0.7, 0}, upright) == doctest::Approx(0.1));
+    CHECK(measure(ball, {0, 1.6, 0}, upright, rod, {0, 0, 0}, upright) == doctest::Approx(0.1));
+    CHECK(measure(rod, {0, 0, 0}, upright, rod, {0.3, 1.5, 0}, upright) == doctest::Approx(0.1));
+    CHECK(measure(rod, {0, 0, 0}, upright, rod, {0.5, 0.5, 0.35}, level) == doctest::Approx(0.05));
+    // Lying on a cube's face, beside it, and through it.
+    CHECK(measure(unit_cube, {0, 0, 0}, upright, rod, {0, 0.65, 0}, level) ==
+          doctest::Approx(0.05));
+    CHECK(measure(rod, {0, 0.75, 0}, level, unit_cube, {0, 0, 0}, upright) == 0);
+    CHECK(measure(unit_cube, {0, 0, 0}, upright, rod, {0.1, 0, 0}, upright) ==
+          doctest::Approx(0.4 + 0.2));
+    CHECK(measure(unit_cube, {0, 0, 0}, upright, rod, {0, 1.6, 0}, upright) ==
+          doctest::Approx(0.1));
+}
+
 TEST_CASE("the sweep finds every overlapping pair of a heap") {
     BenchScene scene;
     SplitMix64 random(2);
@@ -103,7 +121,8 @@ TEST_CASE("the sweep finds every overlapping pair of a heap") {
                            random.draw_between(0, 6)};
         if (i % 3 == 0) add_static_box(scene, at, cube(0.4));
         if (i % 3 == 1) add_box(scene, at, cube(0.4), 1000, random.draw_rotation());
-        if (i % 3 == 2) add_sphere(scene, at, 0.4, 1000);
+        if (i % 6 == 2) add_sphere(scene, at, 0.4, 1000);
+        if (i % 6 == 5) add_capsule(scene, at, 0.3, 0.3, 1000, random.draw_rotation());
     }
     std::size_t count = 0;
     double sum = 0;
@@ -124,18 +143,22 @@ TEST_CASE("the sweep finds every overlapping pair of a heap") {
     CHECK(count > 100);
 }
 
-TEST_CASE("a rolling ball and a tumbling box have the energy of the textbook") {
+TEST_CASE("a rolling ball, a tumbling box and a tumbling capsule have the energy of the textbook") {
     BenchScene scene;
     add_sphere(scene, {0, 5, 0}, 0.5, 1000);
     add_box(scene, {9, 5, 0}, {0.5, 1, 1.5}, 100);
+    add_capsule(scene, {-9, 5, 0}, 1, 0.5, 1);
     const double ball_mass = 4.0 / 3 * std::acos(-1.0) * 125;
     std::vector<BodyMotion> motions = list_starts(scene);
     motions[0].linear_velocity = {2, 0, 0};
     motions[0].angular_velocity = {0, 0, -4};
     motions[1].angular_velocity = {0, 3, 0};
+    motions[2].angular_velocity = {2, 3, 0};
+    const double capsule_mass = 2.0943951;
     // 7/10 m v^2, and 1/24 m (w^2 + d^2) omega^2.
     CHECK(measure_quality(scene, motions).kinetic_energy ==
-          doctest::Approx(0.7 * ball_mass * 4 + 600.0 / 24 * (1 + 9) * 9));
+          doctest::Approx(0.7 * ball_mass * 4 + 600.0 / 24 * (1 + 9) * 9 +
+                          0.5 * capsule_mass * (0.665625 * 4 + 0.11875 * 9)));
 }
 
 TEST_CASE("what fell through the ground, or is not a number, is lost") {
@@ -157,7 +180,7 @@ TEST_CASE("the scenes have the bodies that they are known for, and none starts i
         std::ptrdiff_t moving;
         double overlap;  // m, at most, at the start
     };
-    // Boxes and spheres of the mixed heap are dropped closer than the largest are wide.
+    // The shapes of the mixed heap are dropped closer than the largest are wide.
     constexpr Known known[] = {{"pyramid20", 210, 1e-9},      {"pyramid40", 820, 1e-9},
                                {"large-pyramid", 5050, 1e-9}, {"many-pyramids", 10780, 1e-9},
                                {"pyramids-30k", 31680, 1e-9}, {"wide-pyramid", 1240, 0.026},
@@ -165,8 +188,8 @@ TEST_CASE("the scenes have the bodies that they are known for, and none starts i
                                {"tower-heavy", 20, 1e-9},     {"seesaw", 4, 1e-9},
                                {"spheres5000", 5000, 1e-9},   {"spheres10000", 10000, 1e-9},
                                {"mixed4096", 4096, 0.2},      {"washer", 8000, 1e-9},
-                               {"field", 12006, 1e-9},        {"field-one", 6, 1e-9},
-                               {"moving-boxes", 10000, 1e-9}};
+                               {"capsules1000", 1000, 1e-9},  {"field", 12006, 1e-9},
+                               {"field-one", 6, 1e-9},        {"moving-boxes", 10000, 1e-9}};
     for (const Known& scene : known) {
         CAPTURE(scene.name);
         const SceneEntry* const entry = find_scene(scene.name);

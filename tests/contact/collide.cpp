@@ -17,7 +17,9 @@ namespace {
 constexpr NarrowPhase all_methods[] = {NarrowPhase::Sat, NarrowPhase::GjkEpa};
 
 Geometry random_shape(Random& random) {
-    if (random.uniform(0, 1) < 0.2) return Sphere{random.real(0.2, 1)};
+    const double kind = random.uniform(0, 1);
+    if (kind < 0.2) return Sphere{random.real(0.2, 1)};
+    if (kind < 0.4) return Capsule{random.real(0.2, 0.8), random.real(0, 1)};
     return Box{{random.real(0.2, 1), random.real(0.2, 1), random.real(0.2, 1)}};
 }
 

@@ -162,6 +162,7 @@ UNKNOWN = {
     "sphere_half_extents": (sphere(half_extents=[1, 1, 1]), "bodies[0].shapes[0].half_extents"),
     "box_radius": (box(radius=1), "bodies[0].shapes[0].radius"),
     "plane_radius": (one_shape(static=True, kind="plane", normal=[0, 1, 0], radius=1), "bodies[0].shapes[0].radius"),
+    "capsule_half_extents": (one_shape(kind="capsule", radius=1, height=1, half_extents=[1, 1, 1]), "bodies[0].shapes[0].half_extents"),
     "sphere_rounding": (sphere(rounding=0.1), "bodies[0].shapes[0].rounding"),
     "beside_repeat": (scene(bodies=[{"repeat": {"count": [1, 1, 1], "spacing": [1, 1, 1]}, "body": {}, "mass": 1}]),
                       "bodies[0].mass"),
@@ -217,6 +218,8 @@ for name, (value, path, words) in TYPES.items():
 MISSING = {
     "shape_kind": (one_shape(radius=1), "bodies[0].shapes[0].kind"), "radius": (one_shape(kind="sphere"), "bodies[0].shapes[0].radius"),
     "half_extents": (one_shape(kind="box"), "bodies[0].shapes[0].half_extents"),
+    "capsule_radius": (one_shape(kind="capsule", height=1), "bodies[0].shapes[0].radius"),
+    "capsule_height": (one_shape(kind="capsule", radius=1), "bodies[0].shapes[0].height"),
     "normal": (one_shape(static=True, kind="plane", offset=0), "bodies[0].shapes[0].normal"),
     "axis": (one_body(rotation={"degrees": 5}), "bodies[0].rotation.axis"),
     "degrees": (one_body(rotation={"axis": [0, 1, 0]}), "bodies[0].rotation.degrees"),
@@ -243,6 +246,8 @@ RANGES = {
     "spinning": (sphere(spinning_friction=-1), "bodies[0].shapes[0].spinning_friction"),
     "radius_zero": (one_shape(kind="sphere", radius=0), "bodies[0].shapes[0].radius"),
     "radius_negative": (one_shape(kind="sphere", radius=-1), "bodies[0].shapes[0].radius"),
+    "capsule_radius_zero": (one_shape(kind="capsule", radius=0, height=1), "bodies[0].shapes[0].radius"),
+    "capsule_height_negative": (one_shape(kind="capsule", radius=1, height=-1), "bodies[0].shapes[0].height"),
     "extent_zero": (one_shape(kind="box", half_extents=[1, 0, 1]), "bodies[0].shapes[0].half_extents[1]"),
     "extent_negative": (one_shape(kind="box", half_extents=[1, 1, -1]), "bodies[0].shapes[0].half_extents[2]"),
     "density_zero": (sphere(density=0), "bodies[0].shapes[0].density"), "density_negative": (sphere(density=-1000), "bodies[0].shapes[0].density"),
@@ -317,7 +322,7 @@ for key, value in {"friction": 0.5, "restitution": 0.5, "rolling_friction": 0, "
 WORDS = {
     "body_kind": (one_body(kind="dynamc"), "bodies[0].kind", 'did you mean "dynamic"'), "body_kind_fixed": (one_body(kind="fixed"), "bodies[0].kind", "static, kinematic, dynamic"),
     "shape_kind": (one_shape(kind="spere"), "bodies[0].shapes[0].kind", 'did you mean "sphere"'),
-    "shape_kind_cube": (one_shape(kind="cube"), "bodies[0].shapes[0].kind", "sphere, box, plane"),
+    "shape_kind_cube": (one_shape(kind="cube"), "bodies[0].shapes[0].kind", "sphere, box, capsule, plane"),
     "shape_kind_case": (one_shape(kind="Box"), "bodies[0].shapes[0].kind", 'did you mean "box"'),
     "solver": (scene(step={"solver": "sequential_impulse"}), "step.solver", 'did you mean "sequential-impulse"'),
     "solver_pgs": (scene(step={"solver": "pgs"}), "step.solver", "soft-step, sequential-impulse, xpbd"),
@@ -349,7 +354,7 @@ for name, (value, path, words) in REPEAT.items():
     write("repeat", name, value, path, words)
 
 SHAPES = {
-    "capsule": {"radius": 1, "height": 1}, "cylinder": {"radius": 1, "height": 1}, "cone": {"radius": 1, "height": 1}, "ellipsoid": {"radii": [1, 2, 3]},
+    "cylinder": {"radius": 1, "height": 1}, "cone": {"radius": 1, "height": 1}, "ellipsoid": {"radii": [1, 2, 3]},
     "hull": {"points": [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]}, "compound": {"children": [{"kind": "sphere", "radius": 1}]},
     "mesh": {"vertices": [[0, 0, 0], [1, 0, 0], [0, 0, 1]], "triangles": [[0, 2, 1]]}, "height_field": {"heights": [[0, 0], [0, 0]], "cell_size": [1, 1]},
 }

@@ -1,8 +1,8 @@
-// The golden scenes; see golden_scenes.h. Between them: boxes and spheres, several shapes on a
-// body, every kind of friction, bounces, columns with a heavy top, kinematic bodies, locked axes,
-// free tumbling down to denormal speeds, bodies that come, go and are changed in the middle, and
-// enough contacts at once to fill the widest rows; at the origin and 1e5 and 1e7 metres away from
-// it.
+// The golden scenes; see golden_scenes.h. Between them: boxes, spheres and capsules, several shapes
+// on a body, every kind of friction, bounces, columns with a heavy top, kinematic bodies, locked
+// axes, free tumbling down to denormal speeds, bodies that come, go and are changed in the middle,
+// and enough contacts at once to fill the widest rows; at the origin and 1e5 and 1e7 metres away
+// from it.
 
 #include "determinism/golden_scenes.h"
 
@@ -222,6 +222,38 @@ void build_columns(World& world) {
     }
 }
 
+// Capsules on a plane, a step of boxes and each other, with balls and boxes among them: some lie
+// side by side, some cross, some stand and fall, some roll with a resistance, and some are parts of
+// a body or have no length.
+
+void add_capsules(World& world, const Position& place) {
+    add_ground(world, place);
+    add_block(world, place, {-1.5, 0.1, 0}, {0.9f, 0.1f, 1.2f});
+    for (int i = 0; i < 18; ++i) {
+        const auto part = static_cast<float>(i % 6);
+        const Material bark = {.friction = 0.4f + 0.05f * part,
+                               .restitution = i % 6 == 5 ? 0.4f : 0.0f,
+                               .rolling_friction = i % 4 == 1 ? 0.01f : 0.0f};
+        const Capsule log = {0.12f + 0.02f * part, i == 7 ? 0.0f : 0.3f + 0.1f * part};
+        BodyDef def = {.position = {0.45 * (i % 4) - 1.6, 0.6 + 0.42 * (i / 4), 0.11 * (i % 3)},
+                       .rotation = rotation_about({1, 0, 0.01f * part}, i % 5 == 0 ? 0.0 : 1.5708),
+                       .angular_velocity = {0, 0.5f * part, i % 3 == 0 ? 6.0f : 0.0f},
+                       .shapes = {{.geometry = log, .material = bark}}};
+        if (i % 6 == 2) def.shapes[0].geometry = Box{{0.2f, 0.1f, 0.15f}};
+        if (i % 9 == 4) def.shapes[0].geometry = Sphere{0.2f};
+        if (i % 8 == 3) {
+            def.shapes.push_back({.geometry = log,
+                                  .local_pose = {.position = {0.2f, 0.1f, 0},
+                                                 .rotation = rotation_about({0, 0, 1}, 1.2)},
+                                  .material = bark});
+        }
+        add(world, place, def);
+    }
+}
+
+void build_capsules(World& world) { add_capsules(world, origin); }
+void build_capsules_far_7(World& world) { add_capsules(world, far_7); }
+
 // Impacts: a row of balls that passes a blow on, boxes of growing restitution, and a heavy ball.
 
 void build_bouncing(World& world) {
@@ -318,6 +350,8 @@ constexpr GoldenScene scenes[] = {
     {"crowd", 4, build_crowd, nullptr},
     {"crowd-at-1e7", 8, build_crowd_far_7, nullptr},
     {"columns", 30, build_columns, nullptr},
+    {"capsules", 80, build_capsules, nullptr},
+    {"capsules-at-1e7", 80, build_capsules_far_7, nullptr},
     {"bouncing", 80, build_bouncing, nullptr},
     {"drifting", 90, build_drifting, nullptr},
     {"exchange", 80, build_exchange, exchange_methods},

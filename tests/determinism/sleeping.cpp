@@ -41,6 +41,7 @@ Result<BodyId> add_body(World& world, Random& random) {
         .friction = 0.7f, .rolling_friction = 0.02f, .spinning_friction = 0.02f};
     ShapeDef shape = {.geometry = Box{{half, half, half}}, .material = sticky};
     if (random.below(3) == 0) shape.geometry = Sphere{half};
+    if (random.below(3) == 0) shape.geometry = Capsule{half, half};
     def.shapes = {shape};
     return world.create_body(def);
 }

@@ -56,8 +56,8 @@ TEST_CASE("a heap takes the same future on 1, 2, 3, 4 and 8 threads, and on a ho
 
 namespace {
 
-// One island of so many contacts that a method's loops over its rows are shared: boxes and balls
-// pushed side by side and on top of each other, off their places by a little.
+// One island of so many contacts that a method's loops over its rows are shared: boxes, balls and
+// capsules pushed side by side and on top of each other, off their places by a little.
 World make_crowd(const test::Method& method) {
     World world =
         *World::create({.step = {.solver = method.solver, .narrow_phase = method.narrow_phase}});
@@ -70,6 +70,8 @@ World make_crowd(const test::Method& method) {
         const Material material{.friction = 0.5f, .restitution = i % 9 == 0 ? 0.4f : 0.0f};
         if (i % 5 == 0)
             def.shapes.push_back({.geometry = Sphere{0.5f}, .material = material});
+        else if (i % 5 == 3)
+            def.shapes.push_back({.geometry = Capsule{0.5f, 0.1f}, .material = material});
         else
             def.shapes.push_back({.geometry = Box{{0.5f, 0.5f, 0.5f}}, .material = material});
         (void)world.create_body(def);

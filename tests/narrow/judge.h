@@ -175,6 +175,38 @@ inline double separation_by_hull(const WideBox& a, const WideBox& b) {
     return separation_by_hull({on_a.begin(), on_a.end()}, {on_b.begin(), on_b.end()});
 }
 
+// A capsule's core in binary64: its ends.
+struct WideCore {
+    V ends[2];
+    double radius;
+
+    WideCore(const Capsule& capsule, const Pose& pose) : radius(double(capsule.radius)) {
+        const V half = 0.5 * double(capsule.height) * wide(to_matrix(pose.rotation).y);
+        ends[0] = wide(pose.position) - half;
+        ends[1] = wide(pose.position) + half;
+    }
+};
+
+inline double distance_to_core(V point, const WideCore& core) {
+    return segment_distance(core.ends[0], core.ends[1], point, point);
+}
+
+// Of a core and a box: where they overlap the least push, else the distance of every two features.
+inline double core_separation(const WideBox& box, const WideCore& core) {
+    const auto vertices = box.vertices();
+    const double by_hull =
+        separation_by_hull({vertices.begin(), vertices.end()}, {core.ends[0], core.ends[1]});
+    if (by_hull <= 0) return by_hull;
+    double best = std::min(box.distance_to(core.ends[0]), box.distance_to(core.ends[1]));
+    for (std::size_t i = 0; i < 8; ++i)
+        for (std::size_t k = 1; k < 8; k <<= 1) {
+            if (i & k) continue;
+            best = std::min(
+                best, segment_distance(core.ends[0], core.ends[1], vertices[i], vertices[i | k]));
+        }
+    return best;
+}
+
 // How far apart the two boxes are along the unit vector n, from A to B.
 inline double separation_along(const WideBox& a, const WideBox& b, V n) {
     double top = -1e300, bottom = 1e300;

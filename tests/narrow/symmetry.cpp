@@ -11,7 +11,9 @@ using namespace cairn::judge;
 namespace {
 
 Geometry random_shape(Random& random) {
-    if (random.uniform(0, 1) < 0.4) return Sphere{random.real(0.2, 1)};
+    const double kind = random.uniform(0, 1);
+    if (kind < 0.3) return Sphere{random.real(0.2, 1)};
+    if (kind < 0.6) return Capsule{random.real(0.2, 0.8), random.real(0, 1)};
     return Box{{random.real(0.2, 1.2), random.real(0.2, 1.2), random.real(0.2, 1.2)}};
 }
 
@@ -49,7 +51,8 @@ TEST_CASE("C12: swapping the shapes turns the normal round and leaves the separa
 TEST_CASE("C12: poses whose inverse is exact swap to the bit") {
     const Quat quarter = {0, 0, 1, 0};  // half a turn about z: exact both ways
     const Pose pose = {{0.75f, 0.5f, 0.25f}, quarter};
-    const Geometry shapes[] = {Sphere{0.5f}, Box{{0.5f, 0.25f, 1}}, Box{{1, 0.75f, 0.5f}}};
+    const Geometry shapes[] = {Sphere{0.5f}, Box{{0.5f, 0.25f, 1}}, Box{{1, 0.75f, 0.5f}},
+                               Capsule{0.5f, 1}};
     for (NarrowPhase method : methods)
         for (const Geometry& a : shapes)
             for (const Geometry& b : shapes) {

@@ -7,6 +7,7 @@
 #include <ccd/ccd.h>
 #include <ccd/quat.h>
 #include <fcl/geometry/shape/box.h>
+#include <fcl/geometry/shape/capsule.h>
 #include <fcl/geometry/shape/sphere.h>
 #include <fcl/narrowphase/collision.h>
 #include <fcl/narrowphase/distance.h>
@@ -38,8 +39,10 @@ struct Placed {
     }
     fcl::Transform3d transform() const {
         fcl::Transform3d t = fcl::Transform3d::Identity();
+        // FCL's capsules lie along z, Cairn's along y.
+        const int turned = std::holds_alternative<Capsule>(geometry) ? 2 : 0;
         for (int k = 0; k < 3; ++k) {
-            for (int i = 0; i < 3; ++i) t.linear()(i, k) = axes[k][i];
+            for (int i = 0; i < 3; ++i) t.linear()(i, k) = axes[(k + turned) % 3][i];
             t.translation()(k) = center[k];
         }
         return t;
@@ -51,6 +54,8 @@ std::shared_ptr<fcl::CollisionGeometryd> fcl_shape(const Geometry& geometry) {
         const Vec3 h = box->half_extents;
         return std::make_shared<fcl::Boxd>(2 * double(h.x), 2 * double(h.y), 2 * double(h.z));
     }
+    if (const auto* capsule = std::get_if<Capsule>(&geometry))
+        return std::make_shared<fcl::Capsuled>(double(capsule->radius), double(capsule->height));
     return std::make_shared<fcl::Sphered>(double(std::get<Sphere>(geometry).radius));
 }
 
@@ -66,7 +71,13 @@ void support(const void* object, const ccd_vec3_t* direction, ccd_vec3_t* out) {
             for (int i = 0; i < 3; ++i) point[i] += (along < 0 ? -h : h) * u[i];
         }
     } else {
-        const double r = double(std::get<Sphere>(placed.geometry).radius);
+        const auto* capsule = std::get_if<Capsule>(&placed.geometry);
+        const double r =
+            double(capsule ? capsule->radius : std::get<Sphere>(placed.geometry).radius);
+        const double half = capsule ? 0.5 * double(capsule->height) : 0;
+        const double* u = placed.axes[1];
+        const double along = d[0] * u[0] + d[1] * u[1] + d[2] * u[2];
+        for (int i = 0; i < 3; ++i) point[i] += (along < 0 ? -half : half) * u[i];
         const double length = std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
         for (int i = 0; i < 3; ++i) point[i] += r * d[i] / length;
     }

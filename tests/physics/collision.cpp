@@ -1,7 +1,8 @@
 // Cases C: where two shapes touch, how deep, and along which normal, through World::contacts().
 //
 // The world reports shapes that touch or are about to; a gap is therefore measured by closing it
-// along the normal that the closed form names. C01 is in pairs.cpp.
+// along the normal that the closed form names. C01 is in pairs.cpp, C04 in
+// capsules.cpp.
 
 #include <algorithm>
 
@@ -317,12 +318,14 @@ Case collision_case(std::string_view id, std::string_view title,
 }  // namespace
 
 void find_all_pairs(const Setup& setup, Sheet& sheet);  // pairs.cpp
+void touch_capsules(const Setup& setup, Sheet& sheet);  // capsules.cpp
 
 std::vector<Case> collision_cases() {
     return {
         collision_case("C01", "all pairs", find_all_pairs),
         collision_case("C02", "two balls", touch_balls),
         collision_case("C03", "ball and box", touch_ball_and_box),
+        collision_case("C04", "two capsules", touch_capsules),
         collision_case("C05", "corner and face", touch_corner_and_face),
         collision_case("C06", "edge and edge", touch_edge_and_edge),
         collision_case("C07", "edge and face", touch_edge_and_face),

@@ -44,6 +44,20 @@ void weigh_solids(const Setup&, Sheet& sheet) {
     compare_inertia(sheet, "sphere", sphere, {inertia, inertia, inertia});
 }
 
+void weigh_capsule(const Setup&, Sheet& sheet) {
+    // A cylinder of mass c and two half balls of mass s in all, h long between them.
+    const double r = 0.5, h = 2;
+    const MassProperties found = weigh({capsule(r, h, rough(0), 1)});
+    const double c = pi * r * r * h, s = 4.0 / 3 * pi * r * r * r;
+    const double along = c * r * r / 2 + s * 2 * r * r / 5;
+    const double across =
+        c * (h * h / 12 + r * r / 4) + s * (2 * r * r / 5 + h * h / 4 + 3 * h * r / 8);
+    sheet.compare("capsule, mass", as_double(found.mass), c + s, 1e-6 * (c + s));
+    compare_inertia(sheet, "capsule", found, {across, along, across});
+    sheet.compare("capsule, Ixx / m", across / (c + s), 0.665625, 1e-6);
+    sheet.compare("capsule, Iyy / m", along / (c + s), 0.11875, 1e-6);
+}
+
 void weigh_dumbbell(const Setup&, Sheet& sheet) {
     const double density = 1 / (4.0 / 3 * pi * 0.001);
     ShapeDef left = ball(0.1, rough(0), density), right = left;
@@ -62,6 +76,11 @@ std::vector<Case> mass_cases() {
          .title = "box and sphere",
          .subject = Subject::Mass,
          .run = weigh_solids,
+         .quick = true},
+        {.id = "B02",
+         .title = "capsule",
+         .subject = Subject::Mass,
+         .run = weigh_capsule,
          .quick = true},
         {.id = "B07",
          .title = "a dumbbell of two spheres",

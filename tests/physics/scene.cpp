@@ -109,6 +109,14 @@ ShapeDef ball(double radius, const Material& material, double density) {
     return shape;
 }
 
+ShapeDef capsule(double radius, double height, const Material& material, double density) {
+    ShapeDef shape;
+    shape.geometry = Capsule{static_cast<float>(radius), static_cast<float>(height)};
+    shape.density = static_cast<float>(density);
+    shape.material = material;
+    return shape;
+}
+
 ShapeDef block(const Vec& full_size, const Material& material, double density) {
     ShapeDef shape;
     shape.geometry = Box{to_vec3(0.5 * full_size)};

@@ -69,6 +69,8 @@ World make_world(const Setup& setup, const WorldOptions& options = {});
 
 Material rough(double friction, double restitution = 0);
 ShapeDef ball(double radius, const Material& material, double density = 1000);
+// Along y; `height` is that of the cylindrical part.
+ShapeDef capsule(double radius, double height, const Material& material, double density = 1000);
 ShapeDef block(const Vec& full_size, const Material& material, double density = 1000);
 
 BodyId add(World& world, const BodyDef& def);

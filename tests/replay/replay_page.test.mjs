@@ -195,6 +195,59 @@ await check(
   },
 );
 
+await check(
+  "a capsule is drawn and found along its whole length, its round ends included, and not beyond",
+  async () => {
+    // Level along x from -1.9 to 1.9; specks within it and just outside mark the places.
+    const within = [
+      [0, 0, 0],
+      [1.2, -0.3, 0],
+      [-1.8, 0.1, 0],
+      [1.75, 0, 0],
+    ];
+    const outside = [
+      [0, 0.5, 0],
+      [1.85, 0.35, 0],
+      [-2.05, 0, 0],
+    ];
+    const specks = [...within, ...outside].map((position) => ({
+      kind: "static",
+      position,
+      shapes: [{ kind: "sphere", radius: 0.01 }],
+    }));
+    const rod = {
+      name: "rod",
+      kind: "static",
+      rotation: { axis: [0, 0, 1], degrees: 90 },
+      shapes: [{ kind: "capsule", radius: 0.4, height: 3 }],
+    };
+    const scene = write_scene("rod", {
+      cairn: 1,
+      name: "rod",
+      duration: 0.1,
+      bodies: [rod, ...specks],
+      camera: { eye: [0, 0, 9], target: [0, 0, 0] },
+    });
+    const { page, context, complaints } = await open_replay(browser, run(scene, "rod"), quiet, {
+      viewport: { width: 1280, height: 800 },
+    });
+    await ask(page, "draw");
+    for (let i = 1; i <= specks.length; ++i) {
+      const [x, y] = await ask(page, "screen_position", i);
+      await page.mouse.click(x, y);
+      const is_rod = (await ask(page, "selected")) === 0;
+      assert.equal(is_rod, i <= within.length, `speck ${i} at ${x}, ${y}`);
+      await page.keyboard.press("Escape");
+    }
+    await page.mouse.click(...(await ask(page, "screen_position", 1)));
+    await ask(page, "draw");
+    const facts = await page.textContent("[data-facts]");
+    assert.ok(facts.includes("capsule, radius 400 mm, height 3"), facts);
+    assert.deepEqual(complaints, []);
+    await context.close();
+  },
+);
+
 await check("the timeline scrubs, the keys step, play moves on and stops at the end", async () => {
   const { page, context, complaints } = await open_replay(
     browser,

@@ -47,6 +47,36 @@ TEST_CASE("a box's radius reaches its corners, its thickness is its thinnest") {
     CHECK(bounding_radius(Box{{1e30f, 1e30f, 1e30f}}) == Approx(std::sqrt(3.0) * 1e30));
 }
 
+TEST_CASE("a turned capsule's bounds are its core's, grown by the radius, 1000 times") {
+    Random random(3);
+    double worst_inside = 0, worst_excess = 0;
+    for (int i = 0; i < 1000; ++i) {
+        const Capsule capsule{random.real(0.1, 3), random.real(0, 3)};
+        const Mat3 axes = to_matrix(random.rotation());
+        const V half = wide(bounds_half_extents(capsule, axes));
+        const V end = 0.5 * double(capsule.height) * wide(axes.y);
+        const double r = double(capsule.radius);
+        for (const double excess : {half.x - std::abs(end.x) - r, half.y - std::abs(end.y) - r,
+                                    half.z - std::abs(end.z) - r}) {
+            worst_inside = std::min(worst_inside, excess);
+            worst_excess = std::max(worst_excess, excess);
+        }
+    }
+    CHECK(worst_inside >= 0);
+    CHECK(worst_excess < 1e-6);
+    CHECK(bounding_radius(Capsule{0.5f, 3}) == 2);
+    CHECK(smallest_half_extent(Capsule{0.5f, 3}) == 0.5f);
+    CHECK(smallest_half_extent(Capsule{0.5f, 0.1f}) == 0.5f);
+}
+
+TEST_CASE("a capsule's core is farthest along a direction at one of its ends") {
+    const Capsule capsule{0.5f, 3};
+    const ConvexShape shape = convex_shape(capsule);
+    CHECK(shape.radius == 0.5f);
+    CHECK(shape.support(shape.core, {1, 0.1f, 0}) == Vec3{0, 1.5f, 0});
+    CHECK(shape.support(shape.core, {1, -0.1f, 0}) == Vec3{0, -1.5f, 0});
+}
+
 TEST_CASE("no corner of a box lies farther along a direction than its support point") {
     Random random(2);
     const Box box{{0.5f, 1, 2}};

@@ -113,3 +113,24 @@ TEST_CASE("a plane weighs nothing, alone or among others") {
     const ShapeDef ball{.geometry = Sphere{1}};
     CHECK(mass_of({{.geometry = Plane{}, .local_pose = {{5, 5, 5}, {}}}, ball}) == mass_of({ball}));
 }
+
+TEST_CASE(
+    "B02: a capsule r 0.5, h 2 of density 1 weighs 2.0943951, Ixx 0.665625 m, Iyy 0.11875 m") {
+    const MassProperties m = mass_of({{.geometry = Capsule{0.5f, 2}, .density = 1}});
+    const double mass = 2.0943951;
+    CHECK(double(m.mass) == Approx(mass).epsilon(1e-6));
+    CHECK(double(m.inertia.xx) == Approx(0.665625 * mass).epsilon(1e-6));
+    CHECK(double(m.inertia.yy) == Approx(0.11875 * mass).epsilon(1e-6));
+    CHECK(m.inertia.zz == m.inertia.xx);
+    CHECK(m.center_of_mass == Vec3{});
+}
+
+TEST_CASE("B02: a capsule without a cylinder is the ball, and a long one nearly the rod") {
+    const MassProperties ball = mass_of({{.geometry = Sphere{0.3f}, .density = 500}});
+    const MassProperties short_one = mass_of({{.geometry = Capsule{0.3f, 0}, .density = 500}});
+    CHECK(double(short_one.mass) == Approx(double(ball.mass)).epsilon(1e-6));
+    CHECK(double(short_one.inertia.xx) == Approx(double(ball.inertia.xx)).epsilon(1e-6));
+    CHECK(double(short_one.inertia.yy) == Approx(double(ball.inertia.yy)).epsilon(1e-6));
+    const MassProperties rod = mass_of({{.geometry = Capsule{0.001f, 10}}});
+    CHECK(double(rod.inertia.xx) == Approx(double(rod.mass) * 100 / 12).epsilon(1e-3));
+}

@@ -137,3 +137,71 @@ TEST_CASE("the signed distance of a point is to the nearest surface, negative in
     check(block, {1, 0, 0}, 0, {1, 0, 0});
     check(floor_plane, {7, -1, 7}, -1.5, {0, 1, 0});
 }
+
+TEST_CASE("a ray meets a capsule by its side, by an end, or passes by") {
+    // Along y from -3 to 3, the cylinder from -2 to 2.
+    const Capsule capsule{1, 4};
+    check_hit(cast(capsule, {5, 1.5, 0}, {-1, 0, 0}), 4, {1, 0, 0});
+    // 0.6 beside the axis it meets the side 0.8 before the middle.
+    check_hit(cast(capsule, {0.6, -2, 9}, {0, 0, -1}), 9 - 0.8, {0.6, 0, 0.8});
+    // The same beyond the cylinder: the end's ball, 0.6 above its centre.
+    check_hit(cast(capsule, {9, 2.6, 0}, {-1, 0, 0}), 9 - 0.8, {0.8, 0.6, 0});
+    check_hit(cast(capsule, {0, 9, 0}, {0, -1, 0}), 6, {0, 1, 0});
+    check_hit(cast(capsule, {0.6, -9, 0}, {0, 1, 0}), 9 - 2.8, {0.6, -0.8, 0});
+    // Down a slope of 45 degrees into the side: at x = 1 after 4 each way.
+    check_hit(cast(capsule, {5, 5, 0}, {-1, -1, 0}), 4 * std::sqrt(2.0), {1, 0, 0});
+    CHECK_FALSE(cast(capsule, {5, 0, 0}, {1, 0, 0}));
+    CHECK_FALSE(cast(capsule, {5, 0, 0}, {-1, 0, 0}, 3.9));
+    CHECK_FALSE(cast(capsule, {0, 3.5, 0}, {0.1, 1, 0}));
+    CHECK_FALSE(cast(capsule, {0.9, 3, 0}, {-1, 0, 0.1}));
+}
+
+TEST_CASE("a ray grazes a capsule along its side and its end, and not a millionth farther out") {
+    const Capsule capsule{1, 4};
+    check_hit(cast(capsule, {1, 0, -7}, {0, 0, 1}), 7, {1, 0, 0});
+    CHECK_FALSE(cast(capsule, {1.000001, 0, -7}, {0, 0, 1}));
+    check_hit(cast(capsule, {-7, 3, 0}, {1, 0, 0}), 7, {0, 1, 0});
+    CHECK_FALSE(cast(capsule, {-7, 3.000001, 0}, {1, 0, 0}));
+    // Along the side it touches where the end's ball begins to come near.
+    check_hit(cast(capsule, {1, 9, 0}, {0, -1, 0}), 7, {1, 0, 0});
+    CHECK_FALSE(cast(capsule, {1.000001, 9, 0}, {0, -1, 0}));
+}
+
+TEST_CASE("a ray from within a capsule meets it at once, one from its surface if it goes in") {
+    const Capsule capsule{1, 4};
+    check_inside(cast(capsule, {0, 0, 0}, {0, 1, 0}), {0, 1, 0});
+    check_inside(cast(capsule, {0.5, 2.5, 0}, {1, 0, 0}), {1, 0, 0});
+    check_hit(cast(capsule, {1, 1, 0}, {-1, 0, 0}), 0, {1, 0, 0});
+    CHECK_FALSE(cast(capsule, {1, 1, 0}, {0, 1, 0}));
+    CHECK_FALSE(cast(capsule, {0, 3, 0}, {1, 0, 0}));
+    check_hit(cast(capsule, {0, 3, 0}, {1, -1, 0}), 0, {0, 1, 0});
+}
+
+TEST_CASE("a capsule without length is met as the ball is, by rays from everywhere") {
+    const Capsule capsule{1, 0};
+    const Sphere same{1};
+    for (int i = 0; i < 2000; ++i) {
+        const double a = 0.7 * i, b = 0.13 * i;
+        const Vec3d from = {3 * std::cos(a), 2 * std::sin(b), 3 * std::sin(a)};
+        const Vec3d to = {std::sin(3 * a), std::cos(2 * b), std::sin(5 * b)};
+        const auto hit = cast(capsule, from, to - from), expected = cast(same, from, to - from);
+        REQUIRE(bool(hit) == bool(expected));
+        if (!hit) continue;
+        CHECK(hit->distance == doctest::Approx(expected->distance).epsilon(1e-12));
+        CHECK(length(hit->normal - expected->normal) < 1e-12);
+    }
+}
+
+TEST_CASE("the signed distance of a point from a capsule is to its core less the radius") {
+    const Capsule capsule{1, 4};
+    const auto check = [&](Vec3d point, double distance, Vec3d normal) {
+        const NearestPoint found = find_nearest_point(capsule, point);
+        CHECK(found.distance == doctest::Approx(distance).epsilon(1e-14));
+        CHECK(length(found.normal - normal) < 1e-14);
+    };
+    check({3, 1, 4}, 4, {0.6, 0, 0.8});
+    check({3, 6, 0}, 4, {0.6, 0.8, 0});
+    check({0, -5, 0}, 2, {0, -1, 0});
+    check({0, 1, 0.25}, -0.75, {0, 0, 1});
+    check({0, 1, 0}, -1, {1, 0, 0});
+}

@@ -11,8 +11,11 @@ namespace {
 
 ShapeDef roll_shape(Dice& dice) {
     ShapeDef shape;
-    if (dice.one_in(2)) {
+    if (dice.one_in(3)) {
         shape.geometry = Sphere{dice.between(0.1f, 0.5f)};
+    } else if (dice.one_in(2)) {
+        const float radius = dice.between(0.05f, 0.4f);
+        shape.geometry = Capsule{radius, dice.between(0.0f, 0.8f)};
     } else {
         const float x = dice.between(0.05f, 0.6f);
         const float y = dice.between(0.05f, 0.6f);
@@ -50,7 +53,10 @@ BodyDef roll_small_body(int i, Dice& dice) {
     constexpr double pitch = 0.7;
     ShapeDef shape;
     shape.geometry = Sphere{dice.between(0.15f, 0.3f)};
-    if (!dice.one_in(4)) {
+    if (dice.one_in(3)) {
+        const float radius = dice.between(0.1f, 0.2f);
+        shape.geometry = Capsule{radius, dice.between(0.1f, 0.3f)};
+    } else if (!dice.one_in(4)) {
         const float x = dice.between(0.1f, 0.3f);
         const float y = dice.between(0.1f, 0.3f);
         shape.geometry = Box{{x, y, dice.between(0.1f, 0.3f)}};

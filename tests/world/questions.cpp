@@ -126,6 +126,34 @@ Met meet_box(const Vec3& half, const Vec& o, const Vec& d) {
     return met;
 }
 
+// A cylinder along y and a ball at either end.
+Met meet_capsule(const Capsule& capsule, const Vec& o, const Vec& d) {
+    const Real r = Real(capsule.radius), half = Real(capsule.height) / 2;
+    Met met{.margin = -1};
+    const auto keep = [&](const Met& part) {
+        met.inside |= part.inside;
+        met.margin = std::max(met.margin, part.margin);
+        if (part.distance < 0 || (met.distance >= 0 && met.distance <= part.distance)) return;
+        met.distance = part.distance;
+        met.normal = part.normal;
+    };
+    for (const Real end : {-half, half}) keep(meet_ball(r, {o[0], o[1] - end, o[2]}, d));
+    const Real a = d[0] * d[0] + d[2] * d[2], b = o[0] * d[0] + o[2] * d[2];
+    const Real c = o[0] * o[0] + o[2] * o[2] - r * r, gap = b * b - a * c;
+    if (c < 0 && std::abs(o[1]) < half) keep({.distance = 0, .inside = true});
+    const Real nearest = o[1] - b / a * d[1];
+    if (std::abs(nearest) <= half)
+        met.margin = std::max(met.margin, r - std::sqrt(r * r - gap / a));
+    if (gap >= 0) {
+        const Real t = (-b - std::sqrt(gap)) / a;
+        const Vec at = add(o, t, d);
+        if (t >= 0 && std::abs(at[1]) <= half)
+            keep({.distance = t, .normal = {at[0] / r, 0, at[2] / r}, .margin = -1});
+    }
+    if (met.inside) return {.distance = 0, .normal = add({}, -1, d), .inside = true};
+    return met;
+}
+
 Met meet_plane(const Plane& plane, const Vec& o, const Vec& d) {
     const Vec n = unit(from(plane.normal));
     const Real height = dot(n, o) - Real(plane.offset), slope = dot(n, d);
@@ -153,6 +181,8 @@ Met meet(const Placed& placed, const Ray& ray) {
         met = meet_ball(Real(ball->radius), o, d);
     else if (const auto* box = std::get_if<Box>(&placed.def.geometry))
         met = meet_box(box->half_extents, o, d);
+    else if (const auto* capsule = std::get_if<Capsule>(&placed.def.geometry))
+        met = meet_capsule(*capsule, o, d);
     else
         met = meet_plane(*std::get_if<Plane>(&placed.def.geometry), o, d);
     met.normal = placed.to_world(met.normal);
@@ -180,8 +210,10 @@ struct Crowd {
                 const Vec3 h = {float(random.between(0.1, 1)), float(random.between(0.1, 1)),
                                 float(random.between(0.1, 1))};
                 ShapeDef shape;
-                if ((i + k) % 2)
+                if ((i + k) % 3 == 1)
                     shape.geometry = Sphere{h.x};
+                else if ((i + k) % 3 == 2)
+                    shape.geometry = Capsule{h.x, 2 * h.y};
                 else
                     shape.geometry = Box{h};
                 if (i % 3) shape.local_pose = {random.vector(1), random.turn()};

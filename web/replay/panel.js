@@ -20,6 +20,8 @@
   function describe_geometry(g) {
     const metres = (v) => cairn.format_si(v, "m");
     if (g.kind === "sphere") return `sphere, radius ${metres(g.radius)}`;
+    if (g.kind === "capsule")
+      return `capsule, radius ${metres(g.radius)}, height ${metres(g.height)}`;
     if (g.kind === "box")
       return `box, ${g.half_extents.map((h) => metres(2 * h)).join(" \u00d7 ")}`;
     if (g.kind === "plane")

@@ -24,6 +24,17 @@
     return enter > 0 && enter <= leave ? enter : Infinity;
   }
 
+  // The side alone: the balls at its ends are shapes of their own.
+  function hit_barrel(origin, direction, [radius, half]) {
+    const a = direction.x * direction.x + direction.z * direction.z,
+      b = origin.x * direction.x + origin.z * direction.z,
+      c = origin.x * origin.x + origin.z * origin.z - radius * radius,
+      root = b * b - a * c;
+    if (root < 0 || a === 0) return Infinity;
+    const near = (-b - Math.sqrt(root)) / a;
+    return near > 0 && Math.abs(origin.y + near * direction.y) <= half ? near : Infinity;
+  }
+
   // How far along the ray the box shape begins; Infinity where it is missed.
   cairn.hit_wall = function (shape, start, way, placed) {
     const frame = stage_frame(shape, placed);
@@ -80,7 +91,9 @@
       const t =
         shape.kind === "sphere"
           ? hit_sphere(origin, direction, shape.size[0])
-          : hit_box(origin, direction, shape.size);
+          : shape.kind === "barrel"
+            ? hit_barrel(origin, direction, shape.size)
+            : hit_box(origin, direction, shape.size);
       if (t < nearest) {
         nearest = t;
         best = b;

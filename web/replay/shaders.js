@@ -115,6 +115,19 @@ void main() {`;
   diffuseColor.rgb *= 1.0 - 0.16 * max(circle.x, max(circle.y, circle.z));
   edge_light = 0.0;`;
 
+  // A capsule's side: the octants and circles of the balls at its ends, drawn on between them.
+  const BARREL_SURFACE = `
+  vec3 direction = normalize(vec3(v_local.x / v_half.x, 0.0, v_local.z / v_half.z));
+  stone_normal = normalize(direction.x * v_axis_x + direction.z * v_axis_z);
+  vec3 marked = vec3(direction.x, v_local.y / v_half.x, direction.z);
+  vec3 soft = max(fwidth(marked), vec3(1e-6));
+  vec3 side = clamp(marked / soft, -1.0, 1.0);
+  float octant = 0.5 + 0.5 * side.x * side.y * side.z;
+  diffuseColor.rgb = mix(diffuseColor.rgb * 0.70, min(diffuseColor.rgb * 1.14, vec3(1.0)), octant);
+  vec3 circle = clamp(1.5 - abs(marked) / max(soft, vec3(0.012)), 0.0, 1.0);
+  diffuseColor.rgb *= 1.0 - 0.16 * max(circle.x, max(circle.y, circle.z));
+  edge_light = 0.0;`;
+
   // tint.w: 0 a dynamic body, 1 static, 2 kinematic (hatched); plus 4 where the pointer rests on
   // it.
   const MARKS = `
@@ -129,7 +142,7 @@ void main() {`;
 
   cairn.stone_material = function (kind) {
     const material = new THREE.MeshStandardMaterial({ roughness: 0.62, metalness: 0 });
-    const surface = kind === "sphere" ? BALL_SURFACE : BOX_SURFACE;
+    const surface = { sphere: BALL_SURFACE, barrel: BARREL_SURFACE, box: BOX_SURFACE }[kind];
     const compile = (shader) => {
       patch(shader, "vertexShader", [["void main() {", STONE_VERTEX_HEAD]]);
       patch(shader, "fragmentShader", [
@@ -145,15 +158,12 @@ void main() {`;
         ],
       ]);
     };
-    // r111 tells programs apart by the text of this function: both kinds need their own.
-    material.onBeforeCompile =
-      kind === "sphere"
-        ? (shader) => {
-            compile(shader, "sphere");
-          }
-        : (shader) => {
-            compile(shader, "box");
-          };
+    // r111 tells programs apart by the text of this function: each kind needs its own.
+    material.onBeforeCompile = {
+      sphere: (shader) => compile(shader, "sphere"),
+      barrel: (shader) => compile(shader, "barrel"),
+      box: (shader) => compile(shader, "box"),
+    }[kind];
     material.extensions = { derivatives: true };
     return material;
   };

@@ -13,34 +13,46 @@
         : count > 200
           ? new THREE.SphereBufferGeometry(1, 32, 20)
           : new THREE.SphereBufferGeometry(1, 56, 36),
+    barrel: (count) =>
+      new THREE.CylinderBufferGeometry(1, 1, 2, count > 1500 ? 18 : count > 200 ? 32 : 56, 1, true),
   };
   const vector = (list) => new THREE.Vector3(list[0], list[1], list[2]);
 
-  // Every shape of every body: kind, size (half extents or radius, thrice), body, place in the
-  // body.
+  // What a shape is drawn as: boxes and balls as they are, a capsule as a barrel between two balls
+  // `up` its axis. Sizes are half extents.
+  function list_parts(geometry) {
+    const r = geometry.radius;
+    if (geometry.kind === "box") return [{ kind: "box", size: geometry.half_extents, up: 0 }];
+    if (geometry.kind === "sphere") return [{ kind: "sphere", size: [r, r, r], up: 0 }];
+    if (geometry.kind !== "capsule") return [{ kind: geometry.kind, size: null, up: 0 }];
+    const half = geometry.height / 2;
+    const ends = [half, -half].map((up) => ({ kind: "sphere", size: [r, r, r], up }));
+    return half > 0 ? [{ kind: "barrel", size: [r, half, r], up: 0 }, ...ends] : ends.slice(1);
+  }
+
+  // Every part of every shape of every body: kind, size, body, place in the body.
   function list_shapes(header) {
     const shapes = [];
     header.bodies.shapes.forEach((list, body) => {
       for (const [index, ...pose] of list) {
         const geometry = header.geometries[index];
-        const size =
-          geometry.kind === "box"
-            ? geometry.half_extents
-            : geometry.kind === "sphere"
-              ? [geometry.radius, geometry.radius, geometry.radius]
-              : null;
-        shapes.push({
-          body,
-          geometry,
-          kind: geometry.kind,
-          size,
-          placed: pose.length > 0,
-          position: pose.length ? vector(pose) : new THREE.Vector3(),
-          rotation: pose.length
-            ? new THREE.Quaternion(pose[3], pose[4], pose[5], pose[6])
-            : new THREE.Quaternion(),
-          reach: size ? Math.hypot(...(geometry.kind === "box" ? size : [size[0]])) : 0,
-        });
+        const position = pose.length ? vector(pose) : new THREE.Vector3();
+        const rotation = pose.length
+          ? new THREE.Quaternion(pose[3], pose[4], pose[5], pose[6])
+          : new THREE.Quaternion();
+        for (const { kind, size, up } of list_parts(geometry)) {
+          const shift = new THREE.Vector3(0, up, 0).applyQuaternion(rotation);
+          shapes.push({
+            body,
+            geometry,
+            kind,
+            size,
+            placed: pose.length > 0 || up !== 0,
+            position: position.clone().add(shift),
+            rotation,
+            reach: size ? Math.hypot(...(kind === "sphere" ? [size[0]] : size)) : 0,
+          });
+        }
       }
     });
     return shapes;
