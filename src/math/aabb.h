@@ -19,11 +19,11 @@ constexpr bool overlaps(const Aabb& a, const Aabb& b) {
 
 /// The next binary32 number above x; an infinity stays.
 inline float next_above(float x) {
-    const auto bits = __builtin_bit_cast(std::int32_t, x);
+    const auto bits = __builtin_bit_cast(std::uint32_t, x);
     // Of negative numbers the bits count down, and both zeros have the same neighbour.
-    const std::int32_t next = bits < 0 ? bits - 1 : bits + 1;
-    const std::int32_t of_zero = 1;
-    const std::int32_t above = (bits & 0x7fffffff) == 0 ? of_zero : next;
+    const std::uint32_t next = bits >> 31u != 0 ? bits - 1 : bits + 1;
+    const std::uint32_t of_zero = 1;
+    const std::uint32_t above = (bits & 0x7fffffffu) == 0 ? of_zero : next;
     return __builtin_bit_cast(float, is_finite(x) ? above : bits);
 }
 
