@@ -1,5 +1,6 @@
 #pragma once
-// Vectors in binary64: for rays and distances, which are long where shapes are small.
+// Vectors in binary64: for rays and distances, which are long where shapes are small, and for what
+// is rounded once at the end.
 //
 // A ray from a kilometre away that meets a marble keeps seven digits of the kilometre in binary32,
 // and none of the marble. Directions are turned by rotations made from unit quaternions that are
@@ -27,6 +28,10 @@ constexpr Vec3d operator-(Vec3d a, Vec3d b) { return {a.x - b.x, a.y - b.y, a.z 
 constexpr Vec3d operator-(Vec3d v) { return {-v.x, -v.y, -v.z}; }
 constexpr Vec3d operator*(double s, Vec3d v) { return {s * v.x, s * v.y, s * v.z}; }
 constexpr double dot(Vec3d a, Vec3d b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+constexpr Vec3d cross(Vec3d a, Vec3d b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+constexpr double length_squared(Vec3d v) { return dot(v, v); }
 inline double length(Vec3d v) { return square_root(dot(v, v)); }
 
 constexpr Position operator+(Position p, Vec3d v) { return {p.x + v.x, p.y + v.y, p.z + v.z}; }

@@ -14,10 +14,10 @@ constexpr double relative_gain = 1e-10;
 // Points within this part of D's size of a point, line or plane lie on it.
 constexpr double relative_flat = 1e-10;
 
-constexpr WideVec3 axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+constexpr Vec3d axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 
 // The unit vector least along v.
-WideVec3 axis_across(WideVec3 v) {
+Vec3d axis_across(Vec3d v) {
     const double x = v.x * v.x, y = v.y * v.y, z = v.z * v.z;
     return x <= y && x <= z ? axes[0] : y <= z ? axes[1] : axes[2];
 }
@@ -25,8 +25,8 @@ WideVec3 axis_across(WideVec3 v) {
 void append(Simplex& s, const MinkowskiPoint& p) { s.points[s.size++] = p; }
 
 bool grow_point(const MinkowskiDifference& d, Simplex& s, double flat) {
-    for (const WideVec3& axis : axes) {
-        for (const WideVec3& direction : {axis, -axis}) {
+    for (const Vec3d& axis : axes) {
+        for (const Vec3d& direction : {axis, -axis}) {
             const MinkowskiPoint p = d.support(direction);
             if (length(p.w - s.points[0].w) > flat) return append(s, p), true;
         }
@@ -35,19 +35,19 @@ bool grow_point(const MinkowskiDifference& d, Simplex& s, double flat) {
 }
 
 bool grow_segment(const MinkowskiDifference& d, Simplex& s, double flat) {
-    const WideVec3 ab = s.points[1].w - s.points[0].w;
-    const WideVec3 u = cross(ab, axis_across(ab)), v = cross(ab, u);
-    for (const WideVec3& direction : {u, -u, v, -v}) {
+    const Vec3d ab = s.points[1].w - s.points[0].w;
+    const Vec3d u = cross(ab, axis_across(ab)), v = cross(ab, u);
+    for (const Vec3d& direction : {u, -u, v, -v}) {
         const MinkowskiPoint p = d.support(direction);
-        const WideVec3 off = cross(ab, p.w - s.points[0].w);
+        const Vec3d off = cross(ab, p.w - s.points[0].w);
         if (length(off) > flat * length(ab)) return append(s, p), true;
     }
     return false;
 }
 
 bool grow_triangle(const MinkowskiDifference& d, Simplex& s, double flat) {
-    const WideVec3 a = s.points[0].w, n = cross(s.points[1].w - a, s.points[2].w - a);
-    for (const WideVec3& direction : {n, -n}) {
+    const Vec3d a = s.points[0].w, n = cross(s.points[1].w - a, s.points[2].w - a);
+    for (const Vec3d& direction : {n, -n}) {
         const MinkowskiPoint p = d.support(direction);
         const double height = dot(n, p.w - a);
         if (height > flat * length(n) || -height > flat * length(n)) return append(s, p), true;
@@ -59,7 +59,7 @@ bool grow_triangle(const MinkowskiDifference& d, Simplex& s, double flat) {
 // simplex spans as much as D does.
 bool grow_to_tetrahedron(const MinkowskiDifference& d, Simplex& s) {
     double scale = 0;
-    for (const WideVec3& axis : axes) {
+    for (const Vec3d& axis : axes) {
         const double extent = dot(axis, d.support(axis).w - d.support(-axis).w);
         if (extent > scale) scale = extent;
     }
@@ -73,7 +73,7 @@ bool grow_to_tetrahedron(const MinkowskiDifference& d, Simplex& s) {
 // The answer for a D without volume: across whatever it spans, depth 0.
 EpaResult escape_flat(const Simplex& s) {
     EpaResult result;
-    const WideVec3 a = s.points[0].w;
+    const Vec3d a = s.points[0].w;
     if (s.size == 3) result.normal = cross(s.points[1].w - a, s.points[2].w - a);
     if (s.size == 2) result.normal = cross(s.points[1].w - a, axis_across(s.points[1].w - a));
     result.normal = (1.0 / length(result.normal)) * result.normal;

@@ -20,10 +20,10 @@
 namespace cairn {
 
 struct EpaResult {
-    WideVec3 normal = {0, 1, 0};  // unit, from A to B
-    double depth = 0;             // >= 0 to rounding; a lower bound where the rounds ran out
-    WideVec3 point_a;             // the witnesses, each from its shape's origin
-    WideVec3 point_b;
+    Vec3d normal = {0, 1, 0};  // unit, from A to B
+    double depth = 0;          // >= 0 to rounding; a lower bound where the rounds ran out
+    Vec3d point_a;             // the witnesses, each from its shape's origin
+    Vec3d point_b;
     int rounds = 0;
 };
 

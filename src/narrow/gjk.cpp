@@ -13,8 +13,8 @@ constexpr double relative_touch = 1e-11;
 // A volume or area below this part of the product of its sides is flat.
 constexpr double relative_flat = 1e-12;
 
-WideVec3 nearest_point(const Simplex& s) {
-    WideVec3 v;
+Vec3d nearest_point(const Simplex& s) {
+    Vec3d v;
     for (int i = 0; i < s.size; ++i) v = v + s.weights[i] * s.points[i].w;
     return v;
 }
@@ -84,7 +84,7 @@ bool has_vertex(const Simplex& s, const MinkowskiPoint& p) {
 }  // namespace
 
 void reduce_segment(Simplex& s) {
-    const WideVec3 a = s.points[0].w, ab = s.points[1].w - a;
+    const Vec3d a = s.points[0].w, ab = s.points[1].w - a;
     const double along = -dot(a, ab), squared = length_squared(ab);
     if (along <= 0) return keep_vertex(s, 0);        // 0 lies behind a
     if (along >= squared) return keep_vertex(s, 1);  // 0 lies beyond b
@@ -92,8 +92,8 @@ void reduce_segment(Simplex& s) {
 }
 
 void reduce_triangle(Simplex& s) {
-    const WideVec3 a = s.points[0].w, b = s.points[1].w, c = s.points[2].w;
-    const WideVec3 ab = b - a, ac = c - a, n = cross(ab, ac);
+    const Vec3d a = s.points[0].w, b = s.points[1].w, c = s.points[2].w;
+    const Vec3d ab = b - a, ac = c - a, n = cross(ab, ac);
     const double sides = length_squared(ab) * length_squared(ac);
     if (length_squared(n) <= relative_flat * relative_flat * sides) return reduce_flat_triangle(s);
 
@@ -125,9 +125,9 @@ bool reduce_tetrahedron(Simplex& s) {
     Simplex best;
     double signed_parts[4] = {};  // the weight of each vertex, times six volumes
     for (const auto& face : faces) {
-        const WideVec3 a = s.points[face[0]].w, d = s.points[face[3]].w;
-        const WideVec3 ab = s.points[face[1]].w - a, ac = s.points[face[2]].w - a;
-        const WideVec3 n = cross(ab, ac);
+        const Vec3d a = s.points[face[0]].w, d = s.points[face[3]].w;
+        const Vec3d ab = s.points[face[1]].w - a, ac = s.points[face[2]].w - a;
+        const Vec3d n = cross(ab, ac);
         const double of_d = dot(n, d - a), of_origin = -dot(n, a);
         const double flat = relative_flat * length(n) * length(d - a);
         const bool is_flat = of_d <= flat && of_d >= -flat;
@@ -150,13 +150,13 @@ bool reduce_tetrahedron(Simplex& s) {
     return false;
 }
 
-GjkResult find_closest_points(const MinkowskiDifference& difference, WideVec3 toward_b) {
+GjkResult find_closest_points(const MinkowskiDifference& difference, Vec3d toward_b) {
     GjkResult result;
     Simplex& simplex = result.simplex;
     simplex.points[0] = difference.support(toward_b);
     simplex.weights[0] = 1;
     simplex.size = 1;
-    WideVec3 v = simplex.points[0].w;
+    Vec3d v = simplex.points[0].w;
 
     for (result.rounds = 1; result.rounds < max_rounds; ++result.rounds) {
         const double squared = length_squared(v);
@@ -171,7 +171,7 @@ GjkResult find_closest_points(const MinkowskiDifference& difference, WideVec3 to
         Simplex grown = simplex;
         grown.points[grown.size++] = next;
         const bool holds_origin = reduce(grown);
-        const WideVec3 nearer = nearest_point(grown);
+        const Vec3d nearer = nearest_point(grown);
         if (!holds_origin && length_squared(nearer) >= squared) break;
         simplex = grown;
         v = nearer;

@@ -18,15 +18,15 @@ namespace cairn {
 
 struct GjkResult {
     bool overlap = false;  // the cores touch or overlap: `simplex` holds the origin, to rounding
-    WideVec3 closest;      // v, D's point nearest to the origin: from B's witness to A's
-    WideVec3 point_a;      // the witnesses, each from its shape's origin
-    WideVec3 point_b;
+    Vec3d closest;         // v, D's point nearest to the origin: from B's witness to A's
+    Vec3d point_a;         // the witnesses, each from its shape's origin
+    Vec3d point_b;
     Simplex simplex;
     int rounds = 0;
 };
 
 // `toward_b` is a guess at the direction from A to B; any but 0 is right.
-GjkResult find_closest_points(const MinkowskiDifference& difference, WideVec3 toward_b);
+GjkResult find_closest_points(const MinkowskiDifference& difference, Vec3d toward_b);
 
 // The cases: each keeps the fewest points whose hull holds the simplex's point nearest to the
 // origin, and sets their weights. The last answers whether the tetrahedron holds the origin, and

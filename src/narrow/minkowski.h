@@ -9,32 +9,16 @@
 // and simplices as thin as a needle and as wide as a plain are still told apart. Results are
 // rounded once.
 
-#include "math/quat.h"
+#include "math/vec3d.h"
 #include "shape/support.h"
 
 namespace cairn {
 
-struct WideVec3 {
-    double x = 0, y = 0, z = 0;
-};
-inline WideVec3 widen(Vec3 v) { return {double(v.x), double(v.y), double(v.z)}; }
-inline Vec3 narrow(WideVec3 v) { return {float(v.x), float(v.y), float(v.z)}; }
-inline WideVec3 operator+(WideVec3 a, WideVec3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-inline WideVec3 operator-(WideVec3 a, WideVec3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-inline WideVec3 operator-(WideVec3 v) { return {-v.x, -v.y, -v.z}; }
-inline WideVec3 operator*(double s, WideVec3 v) { return {s * v.x, s * v.y, s * v.z}; }
-inline double dot(WideVec3 a, WideVec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-inline WideVec3 cross(WideVec3 a, WideVec3 b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-inline double length_squared(WideVec3 v) { return dot(v, v); }
-inline double length(WideVec3 v) { return square_root(dot(v, v)); }
-
 // A point w = a - b of D, with the points of A and B that it comes from, along A's axes.
 struct MinkowskiPoint {
-    WideVec3 w;
-    WideVec3 a;  // from A's origin
-    WideVec3 b;  // from B's origin
+    Vec3d w;
+    Vec3d a;  // from A's origin
+    Vec3d b;  // from B's origin
 };
 inline bool is_same_vertex(const MinkowskiPoint& p, const MinkowskiPoint& q) {
     return p.w.x == q.w.x && p.w.y == q.w.y && p.w.z == q.w.z;
@@ -47,15 +31,15 @@ public:
         : MinkowskiDifference(a, b, b_in_a.position, to_matrix(b_in_a.rotation)) {}
 
     // The point of D farthest along `direction`, of any length but 0.
-    MinkowskiPoint support(WideVec3 direction) const;
+    MinkowskiPoint support(Vec3d direction) const;
     // From B's origin to A's: a point of D for shapes that hold their origins.
-    WideVec3 center() const { return -t_; }
+    Vec3d center() const { return -t_; }
     double radius_a() const { return double(a_.radius); }
     double radius_b() const { return double(b_.radius); }
 
 private:
     ConvexShape a_, b_;
-    WideVec3 t_, u_x_, u_y_, u_z_;  // B's origin and axes
+    Vec3d t_, u_x_, u_y_, u_z_;  // B's origin and axes
 };
 
 // Up to four points of D and the weights that make the point nearest to the origin of them.

@@ -20,7 +20,7 @@ Polytope::Polytope(const Simplex& tetrahedron) {
         const double distance = length(tetrahedron.points[vertex_count_].w);
         if (distance > scale_) scale_ = distance;
     }
-    const WideVec3 a = vertex(0).w, b = vertex(1).w, c = vertex(2).w, d = vertex(3).w;
+    const Vec3d a = vertex(0).w, b = vertex(1).w, c = vertex(2).w, d = vertex(3).w;
     // Wound so that 0, 1, 2 is counter-clockwise seen from outside, away from the fourth.
     const bool flip = dot(cross(b - a, c - a), d - a) > 0;
     const int p = 0, q = flip ? 2 : 1, r = flip ? 1 : 2, s = 3;
@@ -58,7 +58,7 @@ Simplex Polytope::nearest_triangle(double distance, double tolerance) const {
         if (!face(f).is_alive || face(f).distance > distance + tolerance) continue;
         Simplex candidate = triangle(f);
         reduce_triangle(candidate);
-        WideVec3 point;
+        Vec3d point;
         for (int k = 0; k < candidate.size; ++k) {
             point = point + candidate.weights[k] * candidate.points[k].w;
         }
@@ -70,8 +70,8 @@ Simplex Polytope::nearest_triangle(double distance, double tolerance) const {
 
 // The new face's index; -1 where it has no normal or there is no room.
 int Polytope::make_face(int a, int b, int c) {
-    const WideVec3 p = vertex(a).w, ab = vertex(b).w - p, ac = vertex(c).w - p;
-    const WideVec3 n = cross(ab, ac);
+    const Vec3d p = vertex(a).w, ab = vertex(b).w - p, ac = vertex(c).w - p;
+    const Vec3d n = cross(ab, ac);
     const double area = length(n);
     if (!(area > relative_sliver * length(ab) * length(ac))) return -1;
     int slot = 0;
@@ -84,13 +84,13 @@ int Polytope::make_face(int a, int b, int c) {
     return slot;
 }
 
-bool Polytope::sees(const Face& f, WideVec3 point) const {
+bool Polytope::sees(const Face& f, Vec3d point) const {
     return dot(f.normal, point - vertex(f.vertices[0]).w) > -relative_plane * scale_;
 }
 
 // Removes the faces that see the point, walking over shared edges from `start`, which does. The
 // edges to the faces that stay are gathered in order around the hole.
-void Polytope::remove_seen(int start, WideVec3 point) {
+void Polytope::remove_seen(int start, Vec3d point) {
     struct Visit {
         int face, entry,
             next;  // the edge it was entered by, and how many edges have been looked at

@@ -17,7 +17,7 @@ public:
     struct Face {
         int vertices[3];
         int neighbors[3];
-        WideVec3 normal;      // unit, outward
+        Vec3d normal;         // unit, outward
         double distance = 0;  // from the origin along the normal
         bool is_alive = false;
     };
@@ -49,8 +49,8 @@ private:
     };
 
     int make_face(int a, int b, int c);
-    bool sees(const Face& face, WideVec3 point) const;
-    void remove_seen(int start, WideVec3 point);
+    bool sees(const Face& face, Vec3d point) const;
+    void remove_seen(int start, Vec3d point);
     bool close_rim(int apex);
     Face& at(int index) { return faces_[std::size_t(index)]; }
 

@@ -15,13 +15,13 @@ using doctest::Approx;
 
 namespace {
 
-Simplex simplex_of(std::initializer_list<WideVec3> points) {
+Simplex simplex_of(std::initializer_list<Vec3d> points) {
     Simplex s;
-    for (const WideVec3& p : points) s.points[s.size++] = {p, p, {}};
+    for (const Vec3d& p : points) s.points[s.size++] = {p, p, {}};
     return s;
 }
-WideVec3 nearest(const Simplex& s) {
-    WideVec3 v;
+Vec3d nearest(const Simplex& s) {
+    Vec3d v;
     for (int i = 0; i < s.size; ++i) v = v + s.weights[i] * s.points[i].w;
     return v;
 }
@@ -144,7 +144,7 @@ TEST_CASE("EPA starts from a point, a segment, a triangle and a tetrahedron alik
     for (const Vec3& t :
          {Vec3{1, 1, 1}, Vec3{1, 1, 0.25f}, Vec3{1, 0.25f, 0.125f}, Vec3{1, 0, 0}}) {
         const MinkowskiDifference touch(convex_shape(cube), convex_shape(cube), {t, {}});
-        for (const WideVec3& guess : {WideVec3{1, 1, 1}, WideVec3{1, 0, 0}, WideVec3{0, 0, 1}}) {
+        for (const Vec3d& guess : {Vec3d{1, 1, 1}, Vec3d{1, 0, 0}, Vec3d{0, 0, 1}}) {
             const GjkResult gjk = find_closest_points(touch, guess);
             REQUIRE(gjk.overlap);
             const EpaResult epa = find_penetration(touch, gjk.simplex);

@@ -169,8 +169,8 @@ public:
         const FourLanes<W> state = read_point(offsetof(ContactPoint, separation));
         const V friction = first_three(read_point(offsetof(ContactPoint, friction_force)));
         const F load = F(source_.h) * state.z, share = F(source_.h) * normal.w;
-        set(CAIRN_FIELD(n), n);
-        set(CAIRN_FIELD(t1), t1);
+        row_.set(CAIRN_FIELD(n), n);
+        row_.set(CAIRN_FIELD(t1), t1);
         row_.set(CAIRN_FIELD(arm_a), arm_a);
         row_.set(CAIRN_FIELD(arm_b), arm_b);
         row_.set(CAIRN_FIELD(mass_a), a_.mass);
@@ -209,11 +209,6 @@ private:
     }
     FourLanes<W> read_point(std::size_t bytes) const {
         return contacts_.read(ContactLanes<W>::point(0, bytes));
-    }
-    void set(std::size_t bytes, const V& v) {
-        row_.set(bytes, v.x, 0);
-        row_.set(bytes, v.y, 1);
-        row_.set(bytes, v.z, 2);
     }
 
     const RowSource& source_;

@@ -17,6 +17,11 @@ public:
 
     F number(std::size_t bytes, int i = 0) const { return F::load(at(bytes, i)); }
     void set(std::size_t bytes, F x, int i = 0) { x.store(at(bytes, i)); }
+    void set(std::size_t bytes, const V& v) {
+        set(bytes, v.x, 0);
+        set(bytes, v.y, 1);
+        set(bytes, v.z, 2);
+    }
     V vector(std::size_t bytes) const {
         return {number(bytes), number(bytes, 1), number(bytes, 2)};
     }

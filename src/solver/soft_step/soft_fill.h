@@ -81,9 +81,9 @@ private:
         t2_ = cross(n_, t1_);
         surfaces_ = contacts_.read(offsetof(Contact, friction));
         slide_ = contacts_.read(offsetof(Contact, surface_velocity));
-        set(CAIRN_FIELD(n), n_);
-        set(CAIRN_FIELD(t1), t1_);
-        set(CAIRN_FIELD(t2), t2_);
+        row_.set(CAIRN_FIELD(n), n_);
+        row_.set(CAIRN_FIELD(t1), t1_);
+        row_.set(CAIRN_FIELD(t2), t2_);
     }
 
     // Friction acts where the load does.
@@ -115,8 +115,8 @@ private:
     }
 
     void fill_bodies() {
-        set(CAIRN_FIELD(arm_a), arm_a_);
-        set(CAIRN_FIELD(arm_b), arm_b_);
+        row_.set(CAIRN_FIELD(arm_a), arm_a_);
+        row_.set(CAIRN_FIELD(arm_b), arm_b_);
         row_.set(CAIRN_FIELD(round_a), round_a_);
         row_.set(CAIRN_FIELD(round_b), round_b_);
         row_.set(CAIRN_FIELD(mass_a), a_.mass);
@@ -124,8 +124,8 @@ private:
         set(CAIRN_FIELD(inertia_a), a_.inertia);
         set(CAIRN_FIELD(inertia_b), b_.inertia);
         if constexpr (Special) {
-            set(CAIRN_FIELD(masses_a), a_.masses);
-            set(CAIRN_FIELD(masses_b), b_.masses);
+            row_.set(CAIRN_FIELD(masses_a), a_.masses);
+            row_.set(CAIRN_FIELD(masses_b), b_.masses);
         }
     }
 
@@ -229,11 +229,6 @@ private:
     V keep(int i, const V& v) const {
         return {select(is_there_[i], v.x, F(0)), select(is_there_[i], v.y, F(0)),
                 select(is_there_[i], v.z, F(0))};
-    }
-    void set(std::size_t bytes, const V& v) {
-        row_.set(bytes, v.x, 0);
-        row_.set(bytes, v.y, 1);
-        row_.set(bytes, v.z, 2);
     }
     void set(std::size_t bytes, const SymmetricLanes<W>& m) {
         row_.set(bytes, m.xx, 0);
