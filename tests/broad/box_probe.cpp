@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "broad/tree_pairs.h"
+#include "support/random.h"
 
 using namespace cairn;
 
@@ -17,13 +18,8 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-struct Random {
-    std::uint64_t state = 11;
-    double unit() {
-        state = state * 6364136223846793005u + 1442695040888963407u;
-        return double(state >> 33) / 2147483648.0;
-    }
-    double between(double low, double high) { return low + (high - low) * unit(); }
+struct RandomPoints : test::Random {
+    RandomPoints() : Random{11} {}
     Position point(double reach) {
         const double x = between(-reach, reach), y = between(-reach, reach);
         return {x, y, between(-reach, reach)};
@@ -61,7 +57,7 @@ struct Boxes {
     TreePairs tree;
     std::vector<Aabb> boxes;
 
-    Boxes(Random& random, int count, double away) {
+    Boxes(RandomPoints& random, int count, double away) {
         for (int i = 0; i < count; ++i) {
             const Position at = random.point(50) + Vec3{float(away), 0, 0};
             const auto half = float(random.between(0.1, 2));
@@ -74,7 +70,7 @@ struct Boxes {
 }  // namespace
 
 TEST_CASE("a ray reaches every box that it enters, near the origin and 1e7 m from it") {
-    Random random;
+    RandomPoints random;
     for (const double away : {0.0, 1e7}) {
         const Boxes world(random, 400, away);
         for (int i = 0; i < 3000; ++i) {
@@ -108,7 +104,7 @@ TEST_CASE("a ray reaches every box that it enters, near the origin and 1e7 m fro
 }
 
 TEST_CASE("a ray reaches few boxes that it does not enter") {
-    Random random;
+    RandomPoints random;
     const Boxes world(random, 2000, 0);
     std::size_t reached = 0, entered = 0;
     for (int i = 0; i < 500; ++i) {
@@ -125,7 +121,7 @@ TEST_CASE("a ray reaches few boxes that it does not enter") {
 }
 
 TEST_CASE("a point reaches every box within its limit, and the nearest first enough") {
-    Random random;
+    RandomPoints random;
     for (const double away : {0.0, 1e7}) {
         const Boxes world(random, 400, away);
         for (int i = 0; i < 1000; ++i) {
@@ -151,7 +147,7 @@ TEST_CASE("a point reaches every box within its limit, and the nearest first eno
 }
 
 TEST_CASE("a limit below 0 ends a search, endless boxes and all") {
-    Random random;
+    RandomPoints random;
     Boxes world(random, 400, 0);
     world.tree.insert(1000, whole_space, false);
     int visits = 0;

@@ -2,7 +2,6 @@
 // letter.
 
 #include <doctest/doctest.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -14,44 +13,13 @@
 #include <string>
 #include <vector>
 
+#include "support/command.h"
+
+using namespace cairn::test;
+
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-struct Outcome {
-    int status = -1;
-    std::string out, err;
-};
-
-std::string read_all(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
-
-// A folder of this test's own, gone when it ends.
-class Scratch {
-public:
-    Scratch() {
-        std::string name = (std::filesystem::temp_directory_path() / "cairn_cli_XXXXXX").string();
-        path_ = mkdtemp(name.data());
-    }
-    ~Scratch() { std::filesystem::remove_all(path_); }
-    std::string file(const std::string& name) const { return path_ + "/" + name; }
-
-private:
-    std::string path_;
-};
-
-Outcome call(const std::string& arguments, const std::string& input = "") {
-    const Scratch scratch;
-    std::ofstream(scratch.file("in"), std::ios::binary) << input;
-    const std::string line = std::string(CAIRN_COMMAND) + " " + arguments + " <" +
-                             scratch.file("in") + " >" + scratch.file("out") + " 2>" +
-                             scratch.file("err");
-    const int code = std::system(line.c_str());
-    return {WIFEXITED(code) ? WEXITSTATUS(code) : -1, read_all(scratch.file("out")),
-            read_all(scratch.file("err"))};
-}
 
 std::vector<std::string> list_keys(const Json& object) {
     std::vector<std::string> keys;

@@ -1,7 +1,6 @@
 // `cairn query` from outside: the answers to the letter, and what is refused.
 
 #include <doctest/doctest.h>
-#include <sys/wait.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,19 +10,13 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "support/command.h"
+
+using namespace cairn::test;
+
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-struct Outcome {
-    int status = -1;
-    std::string out, err;
-};
-
-std::string read_all(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
 
 // A ball of radius 0.5 over a plane, and a box that is turned by 45 degrees.
 const char* const scene = R"({"cairn": 1, "name": "still", "bodies": [
@@ -34,22 +27,10 @@ const char* const scene = R"({"cairn": 1, "name": "still", "bodies": [
               {"kind": "box", "half_extents": [1, 1, 1],
                "rotation": {"axis": [0, 1, 0], "degrees": 45}}]}]})";
 
-Outcome call(const std::string& arguments) {
-    std::string name = (std::filesystem::temp_directory_path() / "cairn_query_XXXXXX").string();
-    const std::filesystem::path folder = mkdtemp(name.data());
-    std::ofstream(folder / "in", std::ios::binary) << scene;
-    const std::string line = std::string(CAIRN_COMMAND) + " query - " + arguments + " <" +
-                             (folder / "in").string() + " >" + (folder / "out").string() + " 2>" +
-                             (folder / "err").string();
-    const int code = std::system(line.c_str());
-    const Outcome outcome = {WIFEXITED(code) ? WEXITSTATUS(code) : -1, read_all(folder / "out"),
-                             read_all(folder / "err")};
-    std::filesystem::remove_all(folder);
-    return outcome;
-}
+Outcome ask(const std::string& arguments) { return call("query - " + arguments, scene); }
 
 Json answer(const std::string& arguments) {
-    const Outcome outcome = call(arguments);
+    const Outcome outcome = ask(arguments);
     CAPTURE(outcome.err);
     REQUIRE(outcome.status == 0);
     CHECK(outcome.err.empty());
@@ -57,7 +38,7 @@ Json answer(const std::string& arguments) {
 }
 
 void check_refused(const std::string& arguments, const std::string& words) {
-    const Outcome outcome = call(arguments);
+    const Outcome outcome = ask(arguments);
     CAPTURE(outcome.err);
     CHECK(outcome.status == 2);
     CHECK(outcome.out.empty());

@@ -13,6 +13,8 @@
 #include <thread>
 #include <vector>
 
+#include "support/random.h"
+
 using namespace cairn;
 
 namespace {
@@ -23,13 +25,8 @@ using Vec = std::array<Real, 3>;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
-struct Random {
-    std::uint64_t state = 5;
-    double unit() {
-        state = state * 6364136223846793005u + 1442695040888963407u;
-        return double(state >> 33) / 2147483648.0;
-    }
-    double between(double low, double high) { return low + (high - low) * unit(); }
+struct RandomPlaces : test::Random {
+    explicit RandomPlaces(std::uint64_t seed) : Random{seed} {}
     Vec3 vector(double reach) {
         const double x = between(-reach, reach), y = between(-reach, reach);
         return {float(x), float(y), float(between(-reach, reach))};
@@ -199,7 +196,7 @@ struct Crowd {
         WorldSettings settings;
         settings.step.broad_phase = broad_phase;
         REQUIRE(world.set_settings(settings));
-        Random random{seed};
+        RandomPlaces random{seed};
         for (int i = 0; i < count; ++i) {
             BodyDef def;
             def.kind = i % 4 == 0 ? BodyKind::Static : BodyKind::Dynamic;
@@ -230,7 +227,7 @@ struct Crowd {
     Position place(Vec3 v) const {
         return {center.x + double(v.x), center.y + double(v.y), center.z + double(v.z)};
     }
-    Ray ray(Random& random) const {
+    Ray ray(RandomPlaces& random) const {
         const Position origin = place(random.vector(15));
         return {origin, random.vector(1), random.unit() < 0.5 ? infinite : random.between(0, 30)};
     }
@@ -248,7 +245,7 @@ struct Answers {
 
 Answers ask(const Crowd& crowd, int count, std::uint64_t seed = 3) {
     Answers answers;
-    Random random{seed};
+    RandomPlaces random{seed};
     const World& world = crowd.world;
     for (int i = 0; i < count; ++i) {
         const Ray ray = crowd.ray(random);
@@ -269,7 +266,7 @@ int check_rays(const Crowd& crowd, int count) {
     const std::vector<Placed> placed = place_all(crowd.world);
     // Float offsets of shapes, rounded in the world, and the grid of positions there.
     const Real rounding = 3e-6L + 4e-16L * Real(std::abs(crowd.center.x));
-    Random random{17};
+    RandomPlaces random{17};
     int met_count = 0;
     for (int i = 0; i < count; ++i) {
         const Ray ray = crowd.ray(random);
@@ -328,7 +325,7 @@ TEST_CASE("answers are the same bits by tree and brute force, prepared or not, m
         REQUIRE(tree.world.state_hash() == brute.world.state_hash());
         REQUIRE(prepared.world.state_hash() == brute.world.state_hash());
         // Between steps bodies go elsewhere, come, go and change.
-        Random random{std::uint64_t(i)};
+        RandomPlaces random{std::uint64_t(i)};
         const Vec3 to = random.vector(15), hit = random.vector(3000);
         const Quat turned = random.turn();
         for (Crowd* crowd : {&tree, &brute, &prepared}) {
